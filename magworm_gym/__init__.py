@@ -1,0 +1,30 @@
+"""MagWorm: a batched simulator of soft worms that a moving magnet drives, as Gymnasium environments.
+
+Importing this package needs numpy and Gymnasium only, and registers ``MagWorm/Crawl-v0``:
+
+>>> import gymnasium, magworm_gym
+>>> worms = gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=64)
+
+The Stable-Baselines3 adapter is :mod:`magworm_gym.sb3`, the checker for vector environments
+:mod:`magworm_gym.testing`, fields and wrenches of magnets :mod:`magworm_gym.magnet`.
+"""
+
+from magworm_gym._magworm import PRESETS, Batch, Scene, SceneError, __version__
+from magworm_gym.env import MagWormEnv
+from magworm_gym.registration import CRAWL_ID, register_environments
+from magworm_gym.scene import load_scene
+from magworm_gym.vector_env import MagWormVectorEnv
+
+__all__ = [
+    "CRAWL_ID",
+    "PRESETS",
+    "Batch",
+    "MagWormEnv",
+    "MagWormVectorEnv",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "load_scene",
+]
+
+register_environments()

@@ -1,0 +1,142 @@
+"""The compiled simulator. Arrays are C-contiguous; N environments, M body magnets, A action
+components, O observation components, D drive magnets, K rod nodes."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+PRESETS: tuple[str, ...]
+
+class SceneError(ValueError):
+    """A scene that cannot be simulated: names the field, the value, the unit and what is allowed."""
+
+@final
+class Scene:
+    """A validated scene."""
+
+    @staticmethod
+    def from_toml(text: str) -> Scene:
+        """Parses and validates a scene. Raises SceneError."""
+    @staticmethod
+    def preset(name: str) -> Scene:
+        """One of PRESETS. Raises SceneError."""
+    def with_values(self, values: Mapping[str, Any]) -> Scene:
+        """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}. A mapping
+        replaces a whole table, None removes an optional one. Raises SceneError."""
+    def to_toml(self) -> str: ...
+    def explain(self) -> str:
+        """Terms compiled into the model, and those left out with the reason."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def magnets(self) -> int:
+        """Number of body magnets M, removed ones included."""
+    @property
+    def removed(self) -> tuple[int, ...]: ...
+    @property
+    def body_length_m(self) -> float: ...
+    @property
+    def control_step_s(self) -> float: ...
+    @property
+    def episode_s(self) -> float: ...
+    @property
+    def controlled(self) -> bool:
+        """Whether the drive follows actions."""
+    @property
+    def stage_limits(self) -> dict[str, float] | None:
+        """reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2 of a controlled drive."""
+    @property
+    def geometry(self) -> dict[str, Any]:
+        """Sizes for drawing: node_thickness_m (K), magnet_size_m (length, height), polarity (M),
+        drive_size_m (length, height), ground (bool), incline_deg."""
+
+class Specification:
+    """One named slice of an observation or action row."""
+
+    name: str
+    unit: str
+    size: int
+    low: float
+    high: float
+    description: str
+
+@final
+class Batch:
+    """N environments of one scene, advanced together."""
+
+    def __init__(self, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None) -> None:
+        """lanes: "wide" (8 per block) or "scalar"; equal bits. threads: None for all cores."""
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def num_envs(self) -> int: ...
+    @property
+    def observation_specification(self) -> tuple[Specification, ...]: ...
+    @property
+    def action_specification(self) -> tuple[Specification, ...]: ...
+    @property
+    def parameter_names(self) -> tuple[str, ...]: ...
+    def set_parameter(self, name: str, factors: NDArray[np.float64]) -> None:
+        """Factors (N,) of the scene's value, in force from the next reset on. Raises ValueError."""
+    def parameter(self, name: str) -> NDArray[np.float64]:
+        """Factors (N,) as set (without what a reset draws)."""
+    def set_magnets_present(self, present: NDArray[np.bool_]) -> None:
+        """(N, M): False takes a magnet out, in force from the next reset on. Raises ValueError."""
+    def magnets_present(self) -> NDArray[np.bool_]: ...
+    def reset(
+        self,
+        mask: NDArray[np.bool_],
+        seeds: NDArray[np.uint64],
+        episodes: NDArray[np.uint64],
+        start: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Resets the environments of mask (N,). Random draws depend on (seed, episode) of the
+        environment alone. start (N, 3): x [m], height [m], angle [rad]; None: the scene's."""
+    def step(
+        self, actions: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:
+        """One control step. actions (N, A) in [-1, 1], clipped. Returns fresh arrays: observations
+        (N, O), progress towards the head in this step [m] (N,), status (N,): 0 running, others see
+        status_text. Broken environments stand still until reset. Raises ValueError for a wrong
+        shape or a value that is not finite, naming the environment; the state is then untouched."""
+    def advance(self, duration_s: float) -> None:
+        """Lets a scene whose drive is not controlled run for a whole number of solver steps."""
+    def observe(self) -> NDArray[np.float32]: ...
+    def status(self) -> NDArray[np.uint8]: ...
+    @staticmethod
+    def status_text(code: int) -> str: ...
+    def time_s(self) -> NDArray[np.float64]: ...
+    def magnet_poses(self) -> NDArray[np.float64]:
+        """(N, M, 3): x [m], y [m], angle [rad] in the world."""
+    def magnet_velocities(self) -> NDArray[np.float64]:
+        """(N, M, 3): [m/s], [m/s], [rad/s]."""
+    def node_positions(self) -> NDArray[np.float64]:
+        """(N, K, 2) [m]: the centre line, head first."""
+    def drive_positions(self) -> NDArray[np.float64]:
+        """(N, D, 2) [m]: centres of the drive magnets."""
+    def drive_velocities(self) -> NDArray[np.float64]:
+        """(N, 2) [m/s]."""
+    def counters(self) -> dict[str, int]:
+        """Solver steps, contact iterations and wrench evaluations since construction."""
+    def get_state(self) -> bytes:
+        """Everything that changes in time, bit for bit."""
+    def set_state(self, state: bytes) -> None:
+        """Raises ValueError for a state of another scene or size; nothing is changed then."""
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+def cuboid_field(
+    size_m: Sequence[float], magnetisation_t: NDArray[np.float64], points_m: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def cuboid_wrench(
+    drive_size_m: Sequence[float],
+    body_size_m: Sequence[float],
+    position_m: NDArray[np.float64],
+    quaternion: NDArray[np.float64],
+    drive_magnetisation_t: NDArray[np.float64],
+    body_magnetisation_t: NDArray[np.float64],
+    order: int,
+    model: str,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

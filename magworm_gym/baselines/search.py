@@ -1,0 +1,135 @@
+"""The best periodic open-loop stroke that CMA-ES finds in a budget of simulated time."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Batch, Scene
+from magworm_gym.baselines.stroke import PeriodicStrokes, Stroke, stroke_from_unit
+from magworm_gym.baselines.trial import Trial, crawl_speed_m_s
+
+Floats = NDArray[np.float64]
+
+FIRST_SIGMA = 0.5
+SEED_LIMIT = 2**31
+
+
+@dataclass(frozen=True)
+class SearchSettings:
+    """Settings of the search.
+
+    Attributes:
+        control_points: Control points of a stroke K.
+        population: Strokes for each generation.
+        starts: Trials of each stroke, with different seeds.
+        trial: How a speed is measured during the search.
+    """
+
+    control_points: int = 6
+    population: int = 32
+    starts: int = 2
+    trial: Trial = field(default_factory=lambda: Trial(settle_s=0.5, measure_s=3.0))
+
+    @property
+    def generation_s(self) -> float:
+        """Simulated time of one generation [s]."""
+        return self.population * self.starts * self.trial.duration_s
+
+
+@dataclass(frozen=True)
+class SearchResult:
+    """What the search found.
+
+    Attributes:
+        stroke: The best stroke.
+        speed_m_s: Its crawling speed during the search [m/s].
+        simulated_s: Simulated time after each generation (G,) [s].
+        best_m_s: Best speed so far after each generation (G,) [m/s].
+    """
+
+    stroke: Stroke
+    speed_m_s: float
+    simulated_s: Floats
+    best_m_s: Floats
+
+
+def search_stroke(
+    scene: Scene,
+    budget_s: float,
+    seed: int,
+    settings: SearchSettings | None = None,
+    present: NDArray[np.bool_] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> SearchResult:
+    """Searches the best periodic stroke; a generation is one batch.
+
+    A search that has converged starts again from a random place,
+    until the budget of simulated time is spent.
+
+    Args:
+        scene: Scene with a controlled drive.
+        budget_s: Simulated time to spend [s]; at least one generation runs.
+        seed: Seed of the search and of the trials.
+        settings: Settings of the search; None for the defaults.
+        present: Which body magnets are in place (M,); None for all.
+        progress: Called after each generation with the simulated time spent [s].
+
+    Returns:
+        The best stroke of all generations, and how the search went.
+
+    Raises:
+        ImportError: The library cmaes is missing; the sentence names the extra to install.
+        ValueError: The scene has no controlled drive.
+    """
+    settings = settings or SearchSettings()
+    batch = Batch(scene, settings.population * settings.starts)
+    if present is not None:
+        batch.set_magnets_present(np.tile(present, (batch.num_envs, 1)))
+    generator = np.random.default_rng(seed)
+    strategy = _strategy(settings, generator, first=True)
+    best, best_speed = np.zeros(1 + 3 * settings.control_points), -np.inf
+    spent, history = 0.0, []
+    while spent == 0.0 or spent + settings.generation_s <= budget_s:
+        if strategy.should_stop():
+            strategy = _strategy(settings, generator, first=False)
+        candidates = np.array([strategy.ask() for _ in range(settings.population)])
+        speeds = _speeds(batch, settings, candidates, generator)
+        strategy.tell(list(zip(candidates, -1e3 * speeds, strict=True)))
+        if speeds.max() > best_speed:
+            best, best_speed = candidates[speeds.argmax()], float(speeds.max())
+        spent += settings.generation_s
+        history.append((spent, best_speed))
+        if progress is not None:
+            progress(spent)
+    times, bests = np.array(history).T
+    return SearchResult(stroke_from_unit(best), best_speed, times, bests)
+
+
+def _speeds(
+    batch: Batch, settings: SearchSettings, candidates: Floats, generator: np.random.Generator
+) -> Floats:
+    """Mean speed (population,) [m/s] over starts that are the same for all candidates."""
+    seeds = generator.integers(SEED_LIMIT, size=settings.starts, dtype=np.uint64)
+    strokes = [stroke_from_unit(candidate) for candidate in candidates for _ in seeds]
+    everyone = np.tile(seeds, settings.population)
+    measured = crawl_speed_m_s(batch, settings.trial, everyone, PeriodicStrokes(strokes))
+    return np.asarray(measured.reshape(settings.population, -1).mean(axis=1))
+
+
+def _strategy(settings: SearchSettings, generator: np.random.Generator, *, first: bool) -> Any:
+    """A fresh evolution strategy on the box [-1, 1]."""
+    try:
+        import cmaes
+    except ImportError as error:
+        raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[training]'.") from error
+    size = 1 + 3 * settings.control_points
+    return cmaes.CMA(
+        mean=np.zeros(size) if first else generator.uniform(-0.5, 0.5, size),
+        sigma=FIRST_SIGMA,
+        bounds=np.tile([-1.0, 1.0], (size, 1)),
+        population_size=settings.population,
+        seed=int(generator.integers(SEED_LIMIT)),
+    )

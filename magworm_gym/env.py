@@ -1,0 +1,144 @@
+"""The single environment: a batch of one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import ArrayLike, NDArray
+
+from magworm_gym._magworm import Batch, Scene
+from magworm_gym.arguments import action_rows
+from magworm_gym.drawing import Frame
+from magworm_gym.infos import Infos, info_of
+from magworm_gym.vector_env import RENDER_MODES, MagWormVectorEnv, Observations
+
+
+class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
+    """One worm that crawls above a driven magnet.
+
+    Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``. Actions, observations, rewards,
+    seeds and options are those of :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the
+    leading axis; infos hold plain numbers and strings, without masks.
+
+    The time limit is the scene's. ``gymnasium.make(..., max_episode_steps=…)`` adds Gymnasium's own
+    limit on top: the sooner of the two ends an episode.
+
+    Args:
+        scene: Preset, path of a TOML file, or scene; its drive must follow actions.
+        max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
+        render_mode: None; "rgb_array": :meth:`render` returns a frame; "human": a window follows
+            each reset and step.
+        lanes: "scalar", or "wide" for SIMD, which cannot help one environment; equal bit for bit.
+        threads: Most threads to use: one environment needs no more than 1.
+
+    Raises:
+        SceneError: The scene cannot be simulated.
+        ValueError: Another argument is out of range.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": list(RENDER_MODES), "render_fps": 50}  # noqa: RUF012
+
+    def __init__(
+        self,
+        scene: str | PathLike[str] | Scene = "paper-3",
+        max_episode_steps: int | None = None,
+        render_mode: str | None = None,
+        lanes: str = "scalar",
+        threads: int | None = 1,
+    ) -> None:
+        self._worms = MagWormVectorEnv(
+            num_envs=1,
+            scene=scene,
+            max_episode_steps=max_episode_steps,
+            render_mode=render_mode,
+            autoreset_mode=AutoresetMode.DISABLED,
+            lanes=lanes,
+            threads=threads,
+        )
+        self.render_mode = render_mode
+        self.metadata = {key: self._worms.metadata[key] for key in ("render_modes", "render_fps")}
+        self.observation_space = self._worms.single_observation_space
+        self.action_space = self._worms.single_action_space
+        self._components = sum(part.size for part in self.batch.action_specification)
+
+    @property
+    def batch(self) -> Batch:
+        """The simulation itself, with arrays of leading length 1, to read from."""
+        return self._worms.batch
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self._worms.scene
+
+    @property
+    def max_episode_steps(self) -> int:
+        """Control steps until an episode is truncated."""
+        return self._worms.max_episode_steps
+
+    @property
+    def observation_layout(self) -> dict[str, slice]:
+        """Where each named part stands in an observation."""
+        return self._worms.observation_layout
+
+    def reset(
+        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[Observations, Infos]:
+        """Starts an episode.
+
+        Args:
+            seed: From 0 to 2^63 - 1; None goes on to the next episode of the seed.
+            options: See :class:`~magworm_gym.vector_env.MagWormVectorEnv`. Never changed.
+
+        Returns:
+            The observation (O,), float32, and the info.
+
+        Raises:
+            ValueError: The seed or an option is not allowed; nothing is changed then.
+        """
+        # One generator for both: an unseeded environment then draws from this one's `np_random`.
+        if seed is None:
+            self._worms.np_random = self.np_random
+        observations, infos = self._worms.reset(seed=seed, options=options)
+        if seed is not None:
+            super().reset(seed=int(seed))
+        return observations[0], info_of(infos, 0)
+
+    def step(self, action: ArrayLike) -> tuple[Observations, float, bool, bool, Infos]:
+        """Advances by one control step.
+
+        Args:
+            action: (3,), finite; values outside [-1, 1] are clipped.
+
+        Returns:
+            The observation (O,) float32, the reward [mm], terminated (never), truncated, the info.
+
+        Raises:
+            ValueError: A wrong shape or a value that is not finite; the state is untouched then.
+            ResetNeeded: The episode has ended, or none was started.
+        """
+        row = action_rows(action, (self._components,))
+        observations, rewards, terminated, truncated, infos = self._worms.step(row[np.newaxis])
+        return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info_of(infos, 0)
+
+    def render(self) -> Frame | None:
+        """Returns a frame (H, W, 3), uint8, with render mode "rgb_array", else None."""
+        frames = self._worms.render()
+        return None if frames is None else frames[0]
+
+    def get_state(self) -> bytes:
+        """Everything that changes in time, for :meth:`set_state`: the continuation is equal bit for bit."""
+        return self._worms.get_state()
+
+    def set_state(self, state: bytes) -> None:
+        """Goes on from a state of an environment with the same scene. Raises ValueError, changing nothing."""
+        self._worms.set_state(state)
+
+    def close(self) -> None:
+        """Closes the window. May be called twice."""
+        self._worms.close()

@@ -1,0 +1,45 @@
+"""Infos in the form of Gymnasium's vector environments: arrays of length N beside masks."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Batch
+
+Flags = NDArray[np.bool_]
+Infos = dict[str, Any]
+
+
+def add(infos: Infos, key: str, values: NDArray[Any], mask: Flags) -> None:
+    """Adds values (N,) where mask (N,) is set; a key that holds for no environment is left out."""
+    if mask.any():
+        nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
+        infos[key] = np.where(mask, values, infos.get(key, nothing))
+        infos[f"_{key}"] = mask | infos.get(f"_{key}", False)
+
+
+def rows(observations: NDArray[Any]) -> NDArray[np.object_]:
+    """The observations (N, O) as N objects, each with its own memory."""
+    separate = np.empty(len(observations), np.object_)
+    separate[:] = [row.copy() for row in observations]
+    return separate
+
+
+def reasons(status: NDArray[np.uint8]) -> NDArray[np.object_]:
+    """Why each environment broke, in words (N,); None where it runs."""
+    texts = np.empty(len(status), np.object_)
+    texts[:] = [Batch.status_text(int(code)) if code else None for code in status]
+    return texts
+
+
+def info_of(infos: Infos, i: int) -> Infos:
+    """The info of environment i, with plain numbers in place of arrays and masks."""
+    names = [key for key in infos if not key.startswith("_") and infos[f"_{key}"][i]]
+    return {key: _plain(infos[key], i) for key in names}
+
+
+def _plain(values: Any, i: int) -> Any:
+    if isinstance(values, dict):
+        return info_of(values, i)
+    return values[i].item() if isinstance(values[i], np.generic) else values[i]

@@ -1,0 +1,140 @@
+"""Fields of cuboid magnets and the wrenches between them, vectorised over points and poses.
+
+Lengths in metres, magnetisations as remanence vectors μ0·M in tesla, unit permeability.
+
+Source: closed-form field of a uniformly charged rectangle (Yang et al., Supercond. Sci. Technol. 3
+(1990) 591; Akoun & Yonnet, IEEE Trans. Magn. 20 (1984) 1962), and for the wrench the charge model:
+σ = n·M on every charged face of the body magnet, F = ∬ σ B dS, T = ∬ σ r × B dS, integrated by
+Gauss–Legendre quadrature.
+"""
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from magworm_gym import _magworm
+
+ALONG_HEIGHT_T = (0.0, 0.0, 1.22)
+"""The magnets of the MagWorm paper: 1.22 T along the height."""
+
+MODELS = ("cuboid", "dipole")
+
+
+def field(
+    size_m: Sequence[float], points_m: ArrayLike, magnetisation_t: ArrayLike = ALONG_HEIGHT_T
+) -> NDArray[np.float64]:
+    """Magnetic flux density of a cuboid magnet at the origin, its edges along the axes.
+
+    Inside the magnet this is B, magnetisation included. It is finite everywhere outside the edges,
+    also on the extensions of edges and faces; on an edge or a corner the flux density of the model
+    is infinite, and a finite value without meaning is returned.
+
+    Args:
+        size_m: Edges along x, y, z [m].
+        points_m: Points (..., 3) [m].
+        magnetisation_t: Remanence vector (..., 3) [T], broadcast against the points.
+
+    Returns:
+        Flux density (..., 3) [T] in the frame of the magnet. It agrees with magpylib to 1e-12 of
+        the largest value on the surface.
+
+    Raises:
+        ValueError: A size that is not positive, a value that is not finite, or shapes that do not fit.
+    """
+    points, magnetisation = _vectors(points_m=(points_m, 3), magnetisation_t=(magnetisation_t, 3))
+    flux = _magworm.cuboid_field(_size("size_m", size_m), _table(magnetisation), _table(points))
+    return flux.reshape(points.shape)
+
+
+def wrench(
+    drive_size_m: Sequence[float],
+    body_size_m: Sequence[float],
+    position_m: ArrayLike,
+    quaternion_wxyz: ArrayLike,
+    *,
+    drive_magnetisation_t: ArrayLike = ALONG_HEIGHT_T,
+    body_magnetisation_t: ArrayLike = ALONG_HEIGHT_T,
+    order: int = 5,
+    model: Literal["cuboid", "dipole"] = "cuboid",
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Force and torque of a drive magnet at the origin, its edges along the axes, on a body magnet.
+
+    Args:
+        drive_size_m: Edges of the drive magnet along x, y, z [m].
+        body_size_m: Edges of the body magnet along its own x, y, z [m].
+        position_m: Centres of the body magnet (..., 3) [m].
+        quaternion_wxyz: Its orientations (..., 4): the rotation from its own frame to the drive's.
+            Normalised here.
+        drive_magnetisation_t: Remanence vector of the drive (..., 3) [T], in its own frame.
+        body_magnetisation_t: Remanence vector of the body magnet (..., 3) [T], in its own frame.
+            Every face that it charges counts.
+        order: Gauss–Legendre points along each edge of a charged face. 5 is good to 1e-6 of the
+            force, and of force times half the magnet's diagonal for the torque, a few millimetres apart.
+        model: "cuboid", or "dipole": both magnets as point dipoles, good far away only.
+
+    The leading axes of positions, orientations and magnetisations are broadcast against each other.
+
+    Returns:
+        Force (..., 3) [N] and torque about the centre of the body magnet (..., 3) [N·m], both in
+        the frame of the drive.
+
+    Raises:
+        ValueError: A size or order that is not positive, a quaternion of length 0, a value that is
+            not finite, an unknown model, or shapes that do not fit.
+    """
+    if model not in MODELS:
+        raise ValueError(f"model is {model!r}; allowed: {', '.join(MODELS)}")
+    if order < 1:
+        raise ValueError(f"order is {order!r}; it must be 1 or more")
+    position, quaternion, drive, body = _vectors(
+        position_m=(position_m, 3),
+        quaternion_wxyz=(quaternion_wxyz, 4),
+        drive_magnetisation_t=(drive_magnetisation_t, 3),
+        body_magnetisation_t=(body_magnetisation_t, 3),
+    )
+    length = np.linalg.norm(quaternion, axis=-1, keepdims=True)
+    if (length == 0.0).any():
+        raise ValueError("quaternion_wxyz has length 0; a rotation is needed")
+    force, torque = _magworm.cuboid_wrench(
+        _size("drive_size_m", drive_size_m),
+        _size("body_size_m", body_size_m),
+        _table(position),
+        _table(quaternion / length),
+        _table(drive),
+        _table(body),
+        order,
+        model,
+    )
+    return force.reshape(position.shape), torque.reshape(position.shape)
+
+
+def _vectors(**given: tuple[ArrayLike, int]) -> list[NDArray[np.float64]]:
+    """Checks the last axis of each argument and broadcasts all others against each other."""
+    arrays = {name: np.asarray(value, np.float64) for name, (value, _) in given.items()}
+    for name, (_, length) in given.items():
+        if arrays[name].shape[-1:] != (length,):
+            raise ValueError(
+                f"{name} has shape {arrays[name].shape}; its last axis must have length {length}"
+            )
+        if not np.isfinite(arrays[name]).all():
+            raise ValueError(f"{name} has a value that is not finite")
+    try:
+        shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays.values()))
+    except ValueError as error:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"leading axes do not fit together: {shapes}") from error
+    return [np.broadcast_to(array, (*shape, array.shape[-1])) for array in arrays.values()]
+
+
+def _table(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors (..., C) as a contiguous table (P, C)."""
+    return np.ascontiguousarray(vectors.reshape(-1, vectors.shape[-1]))
+
+
+def _size(name: str, size_m: Sequence[float]) -> list[float]:
+    edges = [float(edge) for edge in size_m]
+    if len(edges) != 3 or not all(np.isfinite(edge) and edge > 0.0 for edge in edges):
+        raise ValueError(f"{name} is {size_m!r}; it must be three positive lengths")
+    return edges

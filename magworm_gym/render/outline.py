@@ -1,0 +1,84 @@
+"""Outlines in the plane: the rubber band around a centre line, and magnets."""
+
+import functools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+REFINEMENT = 4
+
+
+@functools.lru_cache(maxsize=16)
+def refinement_matrix(nodes: int, factor: int = REFINEMENT) -> NDArray[np.float64]:
+    """Weights that refine a polyline by a Catmull-Rom spline through its points.
+
+    Args:
+        nodes: Number of points K of the polyline, at least 2.
+        factor: Number of pieces for each of the K - 1 edges.
+
+    Returns:
+        ((K - 1) factor + 1, K): multiply from the left.
+    """
+    padded = np.zeros((nodes + 2, nodes))
+    padded[1:-1] = np.eye(nodes)
+    padded[0, :2] = 2.0, -1.0
+    padded[-1, -2:] = -1.0, 2.0
+    s = np.arange(factor)[:, None, None] / factor
+    edges = [padded[i : i + nodes - 1] for i in range(4)]
+    weights = (
+        0.5 * (-s + 2.0 * s**2 - s**3),
+        0.5 * (2.0 - 5.0 * s**2 + 3.0 * s**3),
+        0.5 * (s + 4.0 * s**2 - 3.0 * s**3),
+        0.5 * (-(s**2) + s**3),
+    )
+    pieces = sum(weight * edge for weight, edge in zip(weights, edges, strict=True))
+    matrix = np.concatenate([np.swapaxes(pieces, 0, 1).reshape(-1, nodes), np.eye(nodes)[-1:]])
+    matrix.setflags(write=False)
+    return np.asarray(matrix)
+
+
+def band(
+    nodes: NDArray[np.float64], thickness: NDArray[np.float64], share: float = 1.0
+) -> NDArray[np.float64]:
+    """Closed outline of a band of varying thickness along a centre line.
+
+    Args:
+        nodes: Centre line (K, 2).
+        thickness: Full thickness at each node (K,), in the unit of ``nodes``.
+        share: Draws a band of this share of the thickness inside the full one.
+
+    Returns:
+        Outline (P, 2) in the unit of ``nodes``.
+    """
+    line = refinement_matrix(len(nodes)) @ nodes
+    places = np.linspace(0.0, len(nodes) - 1.0, len(line))
+    half = 0.5 * share * np.interp(places, np.arange(len(nodes)), thickness)
+    tangents = np.gradient(line, axis=0)
+    tangents /= np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-12)
+    normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1)
+    return np.concatenate([line + half[:, None] * normals, (line - half[:, None] * normals)[::-1]])
+
+
+def rectangle(
+    x: float, y: float, angle: float, length: float, bottom: float, top: float
+) -> NDArray[np.float64]:
+    """Corners of a rotated rectangle.
+
+    Args:
+        x: Centre along x.
+        y: Centre along y.
+        angle: Anticlockwise rotation [rad].
+        length: Extent along the rotated x, centred.
+        bottom: Lower side along the rotated y.
+        top: Upper side along the rotated y.
+
+    Returns:
+        Corners (4, 2), in the unit of the lengths.
+    """
+    cosine, sine = math.cos(angle), math.sin(angle)
+    along = (-0.5 * length, 0.5 * length, 0.5 * length, -0.5 * length)
+    across = (bottom, bottom, top, top)
+    return np.array(
+        [(x + cosine * a - sine * b, y + sine * a + cosine * b) for a, b in zip(along, across, strict=True)]
+    )

@@ -1,0 +1,40 @@
+"""A window on the screen."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Window:
+    """Shows frames with pygame, which is imported on construction only.
+
+    Args:
+        width: Width [pixels].
+        height: Height [pixels].
+        title: Caption of the window.
+
+    Raises:
+        ImportError: pygame is missing; the sentence names the extra to install.
+    """
+
+    def __init__(self, width: int, height: int, title: str = "MagWorm") -> None:
+        try:
+            import pygame
+        except ImportError as error:
+            raise ImportError("A window needs pygame: pip install 'magworm-gym[render]'.") from error
+        self._pygame: Any = pygame
+        pygame.display.init()
+        self._screen = pygame.display.set_mode((width, height))
+        pygame.display.set_caption(title)
+
+    def show(self, frame: NDArray[np.uint8]) -> None:
+        """Shows a frame (H, W, 3) and answers the events of the window system."""
+        surface = self._pygame.surfarray.make_surface(frame.swapaxes(0, 1))
+        self._screen.blit(surface, (0, 0))
+        self._pygame.event.pump()
+        self._pygame.display.flip()
+
+    def close(self) -> None:
+        """Closes the window."""
+        self._pygame.display.quit()

@@ -1,0 +1,128 @@
+"""Options of a reset, read and checked before anything changes."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+START_FIELDS = ("x_m", "height_m", "angle_deg")
+"""Fields of the option `start`."""
+
+
+@dataclass(frozen=True)
+class ResetOptions:
+    """Checked options for N environments with M magnets each.
+
+    Attributes:
+        mask: (N,) environments to reset.
+        start: (N, 3) pose: x [m], height [m], angle [rad]; None for the scene's.
+        present: (N, M) False where a magnet is taken out; None for the scene's robot.
+        factors: Factors (N,) of the scene's value, by name of the parameter.
+    """
+
+    mask: NDArray[np.bool_]
+    start: NDArray[np.float64] | None
+    present: NDArray[np.bool_] | None
+    factors: dict[str, NDArray[np.float64]]
+
+
+def read_options(
+    options: Mapping[str, Any] | None, *, num_envs: int, magnets: int, parameter_names: Sequence[str]
+) -> ResetOptions:
+    """Reads `options` without changing it.
+
+    Raises:
+        ValueError: Names the field, its value and what is allowed.
+    """
+    options = _mapping(
+        "options", {} if options is None else options, ("start", "removed", "parameters", "reset_mask")
+    )
+    mask = options.get("reset_mask")
+    start = options.get("start")
+    removed = options.get("removed")
+    parameters = options.get("parameters")
+    return ResetOptions(
+        mask=np.ones(num_envs, np.bool_) if mask is None else _mask(mask, num_envs),
+        start=None if start is None else _start(start, num_envs),
+        present=None if removed is None else _present(removed, num_envs, magnets),
+        factors={} if parameters is None else _factors(parameters, num_envs, parameter_names),
+    )
+
+
+def _mapping(field: str, value: Any, allowed: Sequence[str]) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{field} is {value!r}; it must be a mapping with keys among {', '.join(allowed)}")
+    for key in value:
+        if key not in allowed:
+            raise ValueError(f"{field} has the key {key!r}; allowed: {', '.join(allowed)}")
+    return value
+
+
+def _numbers(field: str, value: Any, num_envs: int) -> NDArray[np.float64]:
+    """One finite number per environment, from a scalar or an array (N,)."""
+    try:
+        numbers = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        numbers = np.full(1, np.nan)
+    if numbers.shape not in ((), (num_envs,)) or not np.isfinite(numbers).all():
+        raise ValueError(
+            f"{field} is {value!r}; it must be a finite number or an array of shape ({num_envs},) of them"
+        )
+    return np.broadcast_to(numbers, num_envs)
+
+
+def _mask(value: Any, num_envs: int) -> NDArray[np.bool_]:
+    if not isinstance(value, np.ndarray) or value.shape != (num_envs,) or value.dtype != np.bool_:
+        raise ValueError(
+            f'options["reset_mask"] is {value!r}; it must be a bool array of shape ({num_envs},)'
+        )
+    if not value.any():
+        raise ValueError(
+            'options["reset_mask"] is False everywhere; it must be True for one environment at least'
+        )
+    return value.copy()
+
+
+def _start(value: Any, num_envs: int) -> NDArray[np.float64]:
+    fields = _mapping('options["start"]', value, START_FIELDS)
+    columns = [
+        _numbers(f'options["start"]["{name}"]', fields.get(name, 0.0), num_envs) for name in START_FIELDS
+    ]
+    start = np.stack(columns, axis=1)
+    start[:, 2] = np.deg2rad(start[:, 2])
+    return start
+
+
+def _present(value: Any, num_envs: int, magnets: int) -> NDArray[np.bool_]:
+    rows = _removed_rows(value, num_envs)
+    present = np.ones((num_envs, magnets), np.bool_)
+    for row, removed in zip(present, rows, strict=True):
+        for magnet in removed:
+            # bool is an int to Python, but a list of flags is not a list of magnets.
+            whole = isinstance(magnet, (int, np.integer)) and not isinstance(magnet, bool)
+            if not whole or not 0 <= magnet < magnets:
+                raise ValueError(f'options["removed"] has the magnet {magnet!r}; allowed: 0 to {magnets - 1}')
+            row[magnet] = False
+    return present
+
+
+def _removed_rows(value: Any, num_envs: int) -> list[Sequence[Any]]:
+    """The magnets taken out of each environment: one sequence for all, or one per environment."""
+    sequence = (list, tuple, np.ndarray)
+    nested = isinstance(value, sequence) and [isinstance(part, sequence) for part in value]
+    if nested is False or (any(nested) and not (all(nested) and len(value) == num_envs)):
+        raise ValueError(
+            f'options["removed"] is {value!r}; it must be a sequence of magnets, '
+            f"or {num_envs} such sequences, one per environment"
+        )
+    return list(value) if any(nested) else [value] * num_envs
+
+
+def _factors(value: Any, num_envs: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+    fields = _mapping('options["parameters"]', value, names)
+    return {
+        name: _numbers(f'options["parameters"]["{name}"]', factor, num_envs)
+        for name, factor in fields.items()
+    }

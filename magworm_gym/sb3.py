@@ -1,0 +1,172 @@
+"""Stable-Baselines3: the native vector environment as a ``VecEnv``.
+
+Needs the extra ``magworm-gym[training]``; ``import magworm_gym`` does not import this module.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from os import PathLike
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
+from stable_baselines3.common.monitor import Monitor
+from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
+
+from magworm_gym._magworm import Scene
+from magworm_gym.infos import Infos, info_of
+from magworm_gym.vector_env import MagWormVectorEnv, Observations
+
+
+class MagWormVecEnv(VecEnv):
+    """N worms for the algorithms of Stable-Baselines3.
+
+    >>> from stable_baselines3 import PPO
+    >>> model = PPO("MlpPolicy", MagWormVecEnv(256), n_steps=32, batch_size=2048)
+
+    It behaves as ``DummyVecEnv`` of monitored single environments does, with one difference that
+    makes it quick: the info of an environment whose episode goes on is an empty dictionary. Where
+    an episode ends, the info holds ``terminal_observation``, ``TimeLimit.truncated``, ``episode``
+    (``r`` return [mm], ``l`` length in control steps, ``t`` seconds since construction) and what
+    :class:`~magworm_gym.vector_env.MagWormVectorEnv` says about its last step (``broken``, …).
+
+    The environments live in one batch: attributes and methods are those of the whole batch
+    (:attr:`worms`), whatever the index.
+
+    Args:
+        num_envs: Number of environments N.
+        scene: Preset, path of a TOML file, or scene.
+        max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
+        render_mode: None, "rgb_array" or "human".
+        render_envs: Environments to draw.
+        lanes: "wide" or "scalar"; equal bit for bit.
+        threads: Most threads to use; None for all cores.
+
+    Raises:
+        SceneError: The scene cannot be simulated.
+        ValueError: Another argument is out of range.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scene: str | PathLike[str] | Scene = "paper-3",
+        max_episode_steps: int | None = None,
+        render_mode: str | None = None,
+        render_envs: Sequence[int] = (0,),
+        lanes: str = "wide",
+        threads: int | None = None,
+    ) -> None:
+        self.worms = MagWormVectorEnv(
+            num_envs=num_envs,
+            scene=scene,
+            max_episode_steps=max_episode_steps,
+            render_mode=render_mode,
+            autoreset_mode=AutoresetMode.SAME_STEP,
+            render_envs=render_envs,
+            lanes=lanes,
+            threads=threads,
+        )
+        super().__init__(num_envs, self.worms.single_observation_space, self.worms.single_action_space)
+        self.metadata = self.worms.metadata
+        self._actions: NDArray[Any] = np.zeros((num_envs, *self.action_space.shape))  # type: ignore[misc]
+        self._returns = np.zeros(num_envs)
+        self._lengths = np.zeros(num_envs, np.int64)
+        self._built_s = time.monotonic()
+
+    def reset(self) -> Observations:
+        """Starts new episodes with the seeds and options given before. Returns observations (N, O)."""
+        shared = self._options[0]
+        if all(options is shared or not (options or shared) for options in self._options):
+            observations, infos = self.worms.reset(seed=self._seeds, options=shared)
+            self.reset_infos = [info_of(infos, i) for i in range(self.num_envs)]
+        else:
+            observations = self._reset_one_by_one()
+        self._returns[:] = 0.0
+        self._lengths[:] = 0
+        self._reset_seeds()
+        self._reset_options()
+        return observations
+
+    def step_async(self, actions: NDArray[Any]) -> None:
+        """Takes the actions (N, 3) for the next :meth:`step_wait`."""
+        self._actions = actions
+
+    def step_wait(self) -> tuple[Observations, NDArray[np.float32], NDArray[np.bool_], list[Infos]]:
+        """Advances by one control step.
+
+        Returns:
+            Fresh arrays: observations (N, O) float32, of the new episode where one ended, rewards
+            (N,) [mm] float32, dones (N,) bool; and N infos.
+        """
+        observations, rewards, terminated, truncated, batch_infos = self.worms.step(self._actions)
+        dones = terminated | truncated
+        self._returns += rewards
+        self._lengths += 1
+        infos: list[Infos] = [{} for _ in range(self.num_envs)]
+        for i in np.flatnonzero(dones).tolist():
+            infos[i] = self._last_info(batch_infos, i, time_limit=bool(truncated[i] and not terminated[i]))
+            first = info_of(batch_infos, i)
+            self.reset_infos[i] = {key: first[key] for key in first if not key.startswith("final_")}
+        self._returns[dones] = 0.0
+        self._lengths[dones] = 0
+        return observations, rewards.astype(np.float32), dones, infos
+
+    def close(self) -> None:
+        """Closes the window. May be called twice."""
+        self.worms.close()
+
+    def get_images(self) -> list[NDArray[np.uint8] | None]:
+        """N frames (H, W, 3), black where an environment is not drawn; None without "rgb_array"."""
+        frames = self.worms.render()
+        return [None] * self.num_envs if frames is None else list(frames)
+
+    def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:
+        """The attribute of the batch, once per index. Raises AttributeError."""
+        value = getattr(self.worms, attr_name)
+        return [value for _ in self._get_indices(indices)]
+
+    def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
+        """Sets an attribute of the batch. Raises ValueError for some of the environments only."""
+        if len(set(self._get_indices(indices))) != self.num_envs:
+            raise ValueError(
+                f"{attr_name} belongs to the whole batch; indices must be None or all environments"
+            )
+        setattr(self.worms, attr_name, value)
+
+    def env_method(
+        self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
+    ) -> list[Any]:
+        """Calls a method of the batch, once, and returns its result once per index."""
+        result = getattr(self.worms, method_name)(*method_args, **method_kwargs)
+        return [result for _ in self._get_indices(indices)]
+
+    def env_is_wrapped(
+        self, wrapper_class: type[gymnasium.Wrapper], indices: VecEnvIndices = None
+    ) -> list[bool]:
+        """True for ``Monitor``, whose statistics of episodes are kept here; nothing else is wrapped."""
+        return [issubclass(Monitor, wrapper_class) for _ in self._get_indices(indices)]
+
+    def _reset_one_by_one(self) -> Observations:
+        """Resets environments that were given options of their own."""
+        for i, options in enumerate(self._options):
+            mask = np.arange(self.num_envs) == i
+            observations, infos = self.worms.reset(seed=self._seeds, options={**options, "reset_mask": mask})
+            self.reset_infos[i] = info_of(infos, i)
+        return observations
+
+    def _last_info(self, batch_infos: Infos, i: int, *, time_limit: bool) -> Infos:
+        return {
+            **info_of(batch_infos["final_info"], i),
+            "terminal_observation": batch_infos["final_obs"][i],
+            "TimeLimit.truncated": time_limit,
+            "episode": {
+                "r": round(float(self._returns[i]), 6),
+                "l": int(self._lengths[i]),
+                "t": round(time.monotonic() - self._built_s, 6),
+            },
+        }

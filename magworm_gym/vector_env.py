@@ -1,0 +1,365 @@
+"""The native vector environment."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any
+
+import numpy as np
+from gymnasium import logger
+from gymnasium.error import ResetNeeded
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import ArrayLike, NDArray
+
+from magworm_gym import snapshot
+from magworm_gym._magworm import Batch, Scene
+from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
+from magworm_gym.drawing import Drawing, Frame
+from magworm_gym.infos import Flags, Infos, add, reasons, rows
+from magworm_gym.reset_options import ResetOptions, read_options
+from magworm_gym.scene import load_scene
+from magworm_gym.spaces import box, layout
+
+Observations = NDArray[np.float32]
+
+MM_PER_M = 1000.0
+RENDER_MODES = ("human", "rgb_array")
+
+
+class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
+    """N worms that crawl above a driven magnet, advanced together by the compiled simulator.
+
+    Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``.
+
+    **Action** (3,), float32 in [-1, 1], clipped: target position of the stage along the robot,
+    its height, its travel speed. **Observation**: see :attr:`observation_layout`; units and bounds
+    stand in ``batch.observation_specification``. **Reward**: forward progress (towards the head)
+    within the control step [mm]; 0 in the step in which a worm breaks. **Terminated**: never.
+    **Truncated**: at the time limit, or where the simulation of a worm breaks numerically.
+
+    **Info** of a step: ``progress_m``, ``time_s`` since the start of the episode, and where an
+    episode ends ``time_limit`` (bool: it ended by the limit) and ``broken`` (the reason, only for
+    broken worms). Of a reset: ``time_s``, ``seed``, ``episode_number``. As usual in Gymnasium, each
+    is an array of length N beside a mask ``_key``.
+
+    **Seeds**: what a reset draws depends on the seed of the environment and the number of its
+    episode alone, not on N, the order of environments or threads. A reset with a seed starts at
+    episode 0; one without a seed, and every autoreset, goes on to the next episode of the seed.
+
+    **Options** of a reset hold until the next call of :meth:`reset` for the same environment,
+    through autoresets; a scalar is for all environments, an array (N,) one value for each:
+
+    - ``"start"``: ``{"x_m", "height_m", "angle_deg"}``, pose of the straight body; parts left out are 0.
+    - ``"removed"``: magnets taken out, counted from 0 at the head, in place of the scene's own
+      ``removed``: one sequence for all, or N sequences.
+    - ``"parameters"``: factors of the scene's values by name, see ``batch.parameter_names``.
+    - ``"reset_mask"``: bool array (N,), the environments to reset.
+
+    Args:
+        num_envs: Number of environments N.
+        scene: Preset, path of a TOML file, or scene; its drive must follow actions.
+        max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
+        render_mode: None; "rgb_array": :meth:`render` returns frames; "human": a window follows
+            each reset and step.
+        autoreset_mode: An ``AutoresetMode`` or its value ("NextStep", "SameStep", "Disabled").
+        render_envs: Environments to draw. "human" shows the first of them.
+        lanes: "wide" for SIMD, or "scalar"; the results are equal bit for bit.
+        threads: Most threads to use; None for all cores.
+
+    Raises:
+        SceneError: The scene cannot be simulated.
+        ValueError: Another argument is out of range.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": list(RENDER_MODES), "render_fps": 50}  # noqa: RUF012
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scene: str | PathLike[str] | Scene = "paper-3",
+        max_episode_steps: int | None = None,
+        render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        render_envs: Sequence[int] = (0,),
+        lanes: str = "wide",
+        threads: int | None = None,
+    ) -> None:
+        scene = load_scene(scene)
+        if not scene.controlled:
+            raise ValueError(
+                f"scene {scene.name!r} has no drive that follows actions (drive.motion 'controlled')"
+            )
+        self.num_envs = positive("num_envs", num_envs)
+        self.render_mode = choice("render_mode", render_mode, (None, *RENDER_MODES))
+        self._autoreset = AutoresetMode(autoreset_mode)
+        self._render_envs = indices("render_envs", render_envs, self.num_envs)
+        self._batch = Batch(scene, self.num_envs, lanes=lanes, threads=threads)
+        self.metadata = {
+            "render_modes": list(RENDER_MODES),
+            "render_fps": round(1.0 / scene.control_step_s),
+            "autoreset_mode": self._autoreset,
+        }
+        limit = (
+            round(scene.episode_s / scene.control_step_s) if max_episode_steps is None else max_episode_steps
+        )
+        self._max_episode_steps = positive("max_episode_steps", limit)
+
+        self.single_observation_space = box(self._batch.observation_specification)
+        self.single_action_space = box(self._batch.action_specification)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+        self._action_shape = (self.num_envs, sum(part.size for part in self._batch.action_specification))
+
+        self._seeds = np.zeros(self.num_envs, np.int64)
+        self._episodes = np.full(self.num_envs, -1, np.int64)  # -1: never reset
+        self._elapsed_steps = np.zeros(self.num_envs, np.int64)
+        self._ended = np.zeros(self.num_envs, np.bool_)
+        self._starts = np.full((self.num_envs, 3), np.nan)  # NaN: the scene's
+        self._drawing: Drawing | None = None
+
+    @property
+    def batch(self) -> Batch:
+        """The simulation itself, to read poses and times from. Change it through `reset` and `step` only."""
+        return self._batch
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of every environment."""
+        return self._batch.scene
+
+    @property
+    def max_episode_steps(self) -> int:
+        """Control steps until an episode is truncated."""
+        return self._max_episode_steps
+
+    @property
+    def observation_layout(self) -> dict[str, slice]:
+        """Where each named part stands in an observation."""
+        return layout(self._batch.observation_specification)
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: Mapping[str, Any] | None = None,
+    ) -> tuple[Observations, Infos]:
+        """Starts new episodes.
+
+        Args:
+            seed: s gives environment i the seed s + i; a sequence gives each its own, with None for
+                those that go on to the next episode of their seed. Environments that were never
+                seeded draw one from ``np_random``. Seeds are from 0 to 2^63 - 1.
+            options: See the class. Never changed.
+
+        Returns:
+            Observations (N, O), float32, of all environments, and the infos of those reset.
+
+        Raises:
+            ValueError: A seed or an option is not allowed; nothing is changed then.
+        """
+        seeds = seeds_of(seed, self.num_envs)
+        request = read_options(
+            options,
+            num_envs=self.num_envs,
+            magnets=self.scene.magnets,
+            parameter_names=self._batch.parameter_names,
+        )
+        self._equip(request)
+        if isinstance(seed, (int, np.integer)):
+            super().reset(seed=int(seed))
+        self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
+        self._start_episodes(request.mask, self._draw_seeds(seeds, request.mask))
+        infos: Infos = {}
+        self._add_reset_infos(infos, request.mask)
+        self._show()
+        return self._batch.observe(), infos
+
+    def step(self, actions: ArrayLike) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
+        """Advances every environment by one control step.
+
+        Args:
+            actions: (N, 3), finite; values outside [-1, 1] are clipped. With ``NEXT_STEP`` the rows of
+                environments that reset in this step are ignored.
+
+        Returns:
+            Fresh arrays: observations (N, O) float32, rewards (N,) [mm] float64, terminated (N,) and
+            truncated (N,) bool, and the infos.
+
+        Raises:
+            ValueError: A wrong shape or a value that is not finite; the state is untouched then.
+            ResetNeeded: An environment was never reset, or with ``DISABLED`` not since its episode ended.
+        """
+        values = action_rows(actions, self._action_shape)
+        resetting = self._due_to_reset()
+        stepping = ~resetting
+        observations, progress_m, status = self._advance(values, resetting)
+        broken = stepping & (status != 0)
+        self._elapsed_steps += stepping
+        timed_out = stepping & ~broken & (self._elapsed_steps >= self._max_episode_steps)
+        truncated = broken | timed_out
+        rewards = np.where(stepping & ~broken, MM_PER_M * progress_m, 0.0)
+        time_s = self._batch.time_s()
+
+        def step_infos(mask: Flags) -> Infos:
+            infos: Infos = {}
+            add(infos, "progress_m", progress_m, mask)
+            add(infos, "time_s", time_s, mask)
+            add(infos, "time_limit", timed_out, mask & truncated)
+            if broken.any():
+                add(infos, "broken", reasons(status), mask & broken)
+            return infos
+
+        same_step = self._autoreset is AutoresetMode.SAME_STEP
+        starting = truncated if same_step else resetting
+        infos = step_infos(stepping & ~starting)
+        if starting.any():
+            if same_step:
+                add(infos, "final_obs", rows(observations), starting)
+                infos["final_info"], infos["_final_info"] = step_infos(starting), starting.copy()
+            self._start_episodes(starting, self._episodes + 1)
+            observations = self._batch.observe()
+            self._add_reset_infos(infos, starting)
+        self._ended = np.zeros_like(truncated) if same_step else truncated.copy()
+        self._show()
+        return observations, rewards, np.zeros_like(truncated), truncated, infos
+
+    def render(self) -> tuple[Frame, ...] | None:
+        """Draws the environments `render_envs`.
+
+        Returns:
+            With "rgb_array" N frames (H, W, 3), uint8, black for environments that are not drawn;
+            else None.
+        """
+        if self.render_mode is None:
+            logger.warn(
+                "render() draws nothing without a render_mode: make the environment with 'rgb_array'."
+            )
+        if self.render_mode != "rgb_array":
+            return None
+        return self._drawn().frames()
+
+    def get_state(self) -> bytes:
+        """Everything that changes in time, for :meth:`set_state`: the continuation is equal bit for bit."""
+        return snapshot.pack({**self._counted(), **self._simulated()})
+
+    def set_state(self, state: bytes) -> None:
+        """Goes on from a state of an environment with the same scene, N and autoreset mode.
+
+        Raises:
+            ValueError: The bytes are no such state; nothing is changed then.
+        """
+        fields = snapshot.unpack(state, like={**self._counted(), **self._simulated()})
+        if fields["autoreset"].item() != self._autoreset.value:
+            raise ValueError(
+                f"the state is of autoreset mode {fields['autoreset'].item()!r}; "
+                f"this environment has {self._autoreset.value!r}"
+            )
+        random = json.loads(fields["random"].item())
+        self._batch.set_state(fields["batch"].tobytes())
+        self.np_random.bit_generator.state = random
+        for name in self._counted():
+            setattr(self, name, fields[name])
+        if self._drawing is not None:
+            self._drawing.forget(np.ones(self.num_envs, np.bool_))
+
+    def close_extras(self, **_: Any) -> None:
+        """Closes the window."""
+        if self._drawing is not None:
+            self._drawing.close()
+            self._drawing = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy goes on bit for bit, and opens a window of its own."""
+        return {**self.__dict__, "_drawing": None}
+
+    def _counted(self) -> dict[str, NDArray[Any]]:
+        """What changes in time on this side of the simulator, by attribute."""
+        names = ("_seeds", "_episodes", "_elapsed_steps", "_ended", "_starts")
+        return {name: getattr(self, name) for name in names}
+
+    def _simulated(self) -> dict[str, NDArray[Any]]:
+        return {
+            "batch": np.frombuffer(self._batch.get_state(), np.uint8),
+            "random": np.array(json.dumps(self.np_random.bit_generator.state)),
+            "autoreset": np.array(self._autoreset.value),
+        }
+
+    def _equip(self, request: ResetOptions) -> None:
+        """Gives the environments of a reset their robots; all or none."""
+        mask, batch = request.mask, self._batch
+        before = {name: batch.parameter(name) for name in batch.parameter_names}
+        present = np.ones(self.scene.magnets, np.bool_)
+        present[list(self.scene.removed)] = False
+        wanted = np.where(
+            mask[:, None], present if request.present is None else request.present, batch.magnets_present()
+        )
+        try:
+            for name, factors in before.items():
+                batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))
+            batch.set_magnets_present(wanted)
+        except ValueError:
+            for name, factors in before.items():
+                batch.set_parameter(name, factors)
+            raise
+
+    def _draw_seeds(self, seeds: Sequence[int | None], mask: Flags) -> NDArray[np.int64]:
+        """Takes the seeds given to the environments of mask; returns the number of their next episode."""
+        episodes = self._episodes + 1
+        for i in np.flatnonzero(mask).tolist():
+            given = seeds[i]
+            if given is not None:
+                self._seeds[i], episodes[i] = given, 0
+            elif episodes[i] == 0:
+                self._seeds[i] = self.np_random.integers(SEED_LIMIT)
+        return episodes
+
+    def _start_episodes(self, mask: Flags, episodes: NDArray[np.int64]) -> None:
+        """Resets the simulation of the environments of mask, to their episodes (N,)."""
+        self._episodes = np.where(mask, episodes, self._episodes)
+        self._elapsed_steps[mask] = 0
+        self._ended[mask] = False
+        keys = self._seeds.astype(np.uint64), np.maximum(self._episodes, 0).astype(np.uint64)
+        placed = mask & ~np.isnan(self._starts[:, 0])
+        if placed.any():
+            self._batch.reset(placed, *keys, start=np.nan_to_num(self._starts))
+        if (mask & ~placed).any():
+            self._batch.reset(mask & ~placed, *keys)
+        if self._drawing is not None:
+            self._drawing.forget(mask)
+
+    def _due_to_reset(self) -> Flags:
+        """The environments whose next step is a reset."""
+        never = np.flatnonzero(self._episodes < 0)
+        if never.size:
+            raise ResetNeeded(f"environment {never[0]} was never reset: call reset() before step()")
+        if self._autoreset is AutoresetMode.DISABLED and self._ended.any():
+            raise ResetNeeded(
+                f"the episode of environment {np.flatnonzero(self._ended)[0]} has ended and autoreset is "
+                "disabled: call reset(options={'reset_mask': truncated}) before step()"
+            )
+        return self._ended.copy()
+
+    def _advance(
+        self, actions: NDArray[np.float64], resetting: Flags
+    ) -> tuple[Observations, NDArray[np.float64], NDArray[np.uint8]]:
+        if resetting.all():
+            return self._batch.observe(), np.zeros(self.num_envs), self._batch.status()
+        # The simulator advances all: what it makes of the others is dropped by their reset.
+        return self._batch.step(np.where(resetting[:, None], 0.0, actions) if resetting.any() else actions)
+
+    def _add_reset_infos(self, infos: Infos, mask: Flags) -> None:
+        add(infos, "time_s", self._batch.time_s(), mask)
+        add(infos, "seed", self._seeds, mask)
+        add(infos, "episode_number", self._episodes, mask)
+
+    def _drawn(self) -> Drawing:
+        if self._drawing is None:
+            self._drawing = Drawing(self._batch, self._render_envs)
+        return self._drawing
+
+    def _show(self) -> None:
+        if self.render_mode == "human":
+            self._drawn().show()

@@ -1,0 +1,255 @@
+//! The velocities at the end of a step, with contact: an active-set iteration on one banded system.
+//!
+//! Each pass assumes a mode for every contact, solves, and checks the assumption: a closed point
+//! that would pull opens, an open one that would sink closes, a sticking one beyond μ_s λ_n + D_f Δt
+//! slides, a sliding one whose velocity reverses sticks. The normal impulse that friction reckons with
+//! is that of the pass before; both are iterated until nothing changes. Lanes that are done are
+//! frozen, so the passes a neighbour still needs do not touch their bits.
+
+use super::{Mode, SLOTS};
+use crate::elastic::{add_rank_one, add_scaled, rate};
+use crate::lanes::{Isa, Mask, Real};
+use crate::model::{GroundLaw, Model};
+use crate::state::Block;
+
+/// Relative change of a reckoned normal impulse below which it counts as settled.
+const SETTLED: f64 = 1e-8;
+/// Passes after which a point that sticks stays so for the step. With μ_d < μ_s the law is not monotone
+/// and two points may take turns without end.
+const PATIENCE: usize = 10;
+
+/// Friction and penalty of each lane in one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<F> {
+    /// μ_s.
+    pub static_friction: F,
+    /// μ_d.
+    pub dynamic_friction: F,
+    /// D_f Δt [N·s].
+    pub adhesion: F,
+    /// v_d [m/s].
+    pub transition_speed: F,
+    /// w [kg].
+    pub weight: F,
+    /// Impulse below which changes do not matter [N·s].
+    pub negligible: F,
+}
+
+impl<F: Real> Ground<F> {
+    /// The law in the lanes of a block.
+    #[inline(always)]
+    pub fn new(law: &GroundLaw, static_factor: F, dynamic_factor: F, dt: f64) -> Self {
+        let one = static_factor.splat(1.0);
+        Self {
+            static_friction: static_factor * law.static_friction,
+            dynamic_friction: dynamic_factor * law.dynamic_friction,
+            adhesion: one * (law.adhesion_n * dt),
+            transition_speed: one * law.transition_speed_m_s,
+            weight: one * law.weight_kg,
+            // A ten-millionth of a node's weight over the step.
+            negligible: one * (law.weight_kg * 1e-8 * 1e-7 * 9.81 * dt),
+        }
+    }
+}
+
+/// Solves for the velocities at the end of the step into `next`; updates impulses and modes.
+#[inline(always)]
+pub fn solve<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+) {
+    let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
+    let mut refactor = true;
+    for pass in 0..model.scene.solver.contact_iterations {
+        if refactor {
+            assemble_matrix(isa, model, ground, block);
+            model.band.factor(isa, &mut block.factor);
+            block.counters.factorisations += 1;
+        }
+        assemble_right(isa, model, ground, block);
+        model.band.solve(isa, &block.factor, &mut block.solution);
+        block.counters.solves += 1;
+        accept(isa, block, done);
+        let change = update_modes(isa, model, ground, block, done, pass < PATIENCE);
+        done = done | !(change.modes | change.impulses);
+        refactor = (change.modes & !done).any();
+        if done.all() {
+            break;
+        }
+    }
+}
+
+/// Which lanes a pass has changed.
+struct Change<M> {
+    modes: M,
+    impulses: M,
+}
+
+#[inline(always)]
+fn assemble_matrix<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+) {
+    block.factor.copy_from_slice(&block.matrix);
+    let zero = isa.splat(0.0);
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let mode = isa.load(&block.mode[c]);
+        let closed = I::F::select(mode.eq(isa.splat(Mode::OPEN)), zero, ground.weight);
+        let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
+        for (direction, weight) in [closed, stuck].into_iter().enumerate() {
+            let row = jacobian(isa, block, c, direction);
+            add_rank_one(isa, &model.band, &mut block.factor, &contact.stencil, &row, weight);
+        }
+    }
+}
+
+#[inline(always)]
+fn assemble_right<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+) {
+    block.solution.copy_from_slice(&block.right);
+    let zero = isa.splat(0.0);
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let mode = isa.load(&block.mode[c]);
+        let open = mode.eq(isa.splat(Mode::OPEN));
+        let stuck = mode.eq(isa.splat(Mode::STICK));
+        let held = isa.load(&block.warm[2 * c]) - ground.weight * isa.load(&block.approach[c]);
+        let friction = ground.dynamic_friction * isa.load(&block.reckoned[c]) + ground.adhesion;
+        let sliding = I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
+        let impulses = [held, sliding].map(|x| I::F::select(open, zero, x));
+        for (direction, impulse) in impulses.into_iter().enumerate() {
+            let row = jacobian(isa, block, c, direction);
+            add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
+        }
+    }
+}
+
+#[inline(always)]
+fn jacobian<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W>,
+    contact: usize,
+    direction: usize,
+) -> [I::F; SLOTS] {
+    let first = SLOTS * (2 * contact + direction);
+    std::array::from_fn(|slot| isa.load(&block.jacobian[first + slot]))
+}
+
+/// Takes the solution over in lanes that are not done.
+#[inline(always)]
+fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
+    for row in 0..block.solution.len() {
+        let (new, old) = (isa.load(&block.solution[row]), isa.load(&block.next[row]));
+        isa.store(I::F::select(done, old, new), &mut block.next[row]);
+    }
+}
+
+#[inline(always)]
+fn update_modes<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    done: I::M,
+    may_slip: bool,
+) -> Change<I::M> {
+    let zero = isa.splat(0.0);
+    let never = zero.lt(zero);
+    let mut change = Change { modes: never, impulses: never };
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let normal_row = jacobian(isa, block, c, 0);
+        let tangential_row = jacobian(isa, block, c, 1);
+        let u_n = rate(isa, &block.next, &contact.stencil, &normal_row) + isa.load(&block.approach[c]);
+        let u_t = rate(isa, &block.next, &contact.stencil, &tangential_row);
+        let point = Point {
+            mode: isa.load(&block.mode[c]),
+            normal: isa.load(&block.warm[2 * c]) - ground.weight * u_n,
+            held: isa.load(&block.warm[2 * c + 1]) - ground.weight * u_t,
+            reckoned: isa.load(&block.reckoned[c]),
+            u_n,
+            u_t,
+        };
+        let after = point.after(isa, ground, may_slip);
+        let moved = !after.mode.eq(point.mode);
+        let closed = !after.mode.eq(isa.splat(Mode::OPEN));
+        let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
+        let drift = (after.normal - point.reckoned).abs();
+        let unsettled = sliding & drift.gt(after.normal * SETTLED + ground.negligible);
+        change.modes = change.modes | (moved & !done);
+        change.impulses = change.impulses | (unsettled & !done);
+        let keep = |new: I::F, old: &[f64; W]| I::F::select(done, isa.load(old), new);
+        isa.store(keep(after.mode, &block.mode[c]), &mut block.mode[c]);
+        isa.store(keep(after.normal, &block.normal[c]), &mut block.normal[c]);
+        isa.store(keep(after.tangential, &block.tangential[c]), &mut block.tangential[c]);
+        isa.store(keep(after.normal, &block.reckoned[c]), &mut block.reckoned[c]);
+    }
+    change
+}
+
+/// A contact point after a pass, under the mode it was assumed in.
+struct Point<F> {
+    mode: F,
+    /// λ_n if it was closed.
+    normal: F,
+    /// λ_t if it was sticking.
+    held: F,
+    /// λ_n that friction reckoned with.
+    reckoned: F,
+    u_n: F,
+    u_t: F,
+}
+
+/// Mode and impulses that the laws ask for.
+struct After<F> {
+    mode: F,
+    normal: F,
+    tangential: F,
+}
+
+impl<F: Real> Point<F> {
+    #[inline(always)]
+    fn after<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+        &self,
+        isa: I,
+        ground: &Ground<F>,
+        may_slip: bool,
+    ) -> After<F> {
+        let zero = isa.splat(0.0);
+        let (open, stick) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
+        let forward = isa.splat(Mode::SLIDE_FORWARD);
+        let is_open = self.mode.eq(open);
+        let is_stuck = self.mode.eq(stick);
+
+        // Open points: close where they would sink, sticking if slow.
+        let sinks = self.u_n.lt(isa.splat(-1e-12));
+        let slow = self.u_t.abs().le(ground.transition_speed);
+        let landing = F::select(slow, stick, forward.copysign(self.u_t));
+        let from_open = F::select(sinks, landing, open);
+
+        // Closed points: open where they would pull, else hold or slide. Friction opposes sliding.
+        let normal = self.normal.max(zero);
+        let limit = ground.static_friction * normal + ground.adhesion;
+        let slips = self.held.abs().gt(limit);
+        let sliding = if may_slip { forward.copysign(-self.held) } else { stick };
+        let from_stick = F::select(slips, sliding, stick);
+        let reverses = (self.u_t * self.mode).lt(zero);
+        let from_slide = F::select(reverses, stick, self.mode);
+        let pulls = self.normal.lt(zero);
+        let from_closed = F::select(pulls, open, F::select(is_stuck, from_stick, from_slide));
+
+        let mode = F::select(is_open, from_open, from_closed);
+        let normal = F::select(is_open, zero, normal);
+        let friction = ground.dynamic_friction * normal + ground.adhesion;
+        let sliding = -friction.copysign(mode);
+        let tangential = F::select(mode.eq(stick), self.held, sliding);
+        let tangential = F::select(mode.eq(open) | is_open, zero, tangential);
+        After { mode, normal, tangential }
+    }
+}

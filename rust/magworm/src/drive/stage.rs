@@ -1,0 +1,69 @@
+//! A stage that moves to a target as fast as its speed and acceleration allow, one axis at a time.
+
+use crate::lanes::Real;
+
+/// Limits of the stage; heights are of the magnets' centres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageModel {
+    /// Furthest target ahead of or behind the robot's centre [m].
+    pub reach_m: f64,
+    /// Lowest height [m].
+    pub lowest_m: f64,
+    /// Greatest height [m].
+    pub highest_m: f64,
+    /// Greatest speed of each axis [m/s].
+    pub speed_m_s: f64,
+    /// Greatest acceleration of each axis [m/s²].
+    pub acceleration_m_s2: f64,
+}
+
+impl StageModel {
+    /// One step of one axis towards `target`, no faster than `limit`: (position, velocity) after it.
+    ///
+    /// The velocity aimed at is the largest from which the stage still stops in time when it brakes
+    /// by a·dt every step: v (v + a dt)/(2a) = d, hence v = √(a²dt²/4 + 2ad) − a dt/2; nor more than
+    /// d/dt, which lands on the target.
+    #[inline(always)]
+    pub fn advance<F: Real>(&self, position: F, velocity: F, target: F, limit: F, dt: f64) -> (F, F) {
+        let distance = target - position;
+        let away = distance.abs();
+        let gain = self.acceleration_m_s2 * dt;
+        let braking = (away * (2.0 * self.acceleration_m_s2) + 0.25 * gain * gain).sqrt() - 0.5 * gain;
+        let speed = braking.min(away / dt).min(limit);
+        let aim = speed.copysign(distance);
+        let change = (aim - velocity).clamp(aim.splat(-gain), aim.splat(gain));
+        let velocity = velocity + change;
+        (position + velocity * dt, velocity)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const STAGE: StageModel = StageModel {
+        reach_m: 0.06,
+        lowest_m: -0.062,
+        highest_m: -0.022,
+        speed_m_s: 0.21,
+        acceleration_m_s2: 5.0,
+    };
+
+    proptest! {
+        #[test]
+        fn reaches_its_target_without_overshoot_within_its_limits(
+            target in -0.1..0.1f64, limit in 0.01..0.21f64, dt in 1e-4..5e-3f64,
+        ) {
+            let (mut x, mut v) = (0.0, 0.0);
+            for _ in 0..(15.0 / dt) as usize {
+                let (next, speed) = STAGE.advance(x, v, target, limit, dt);
+                prop_assert!(speed.abs() <= limit * (1.0 + 1e-12));
+                prop_assert!((speed - v).abs() <= 5.0 * dt * (1.0 + 1e-12));
+                prop_assert!((next - target) * target.signum() <= 1e-12);
+                (x, v) = (next, speed);
+            }
+            prop_assert!((x - target).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Bending springs of the discrete elastic rod (Bergou 2008; planar form in Huang 2020, Goldberg 2019).
+//!
+//! With φ the turning angle between the elements e and f at a node,
+//! κ = 2 tan(φ/2) = 2 (t_e × t_f)/(1 + t_e · t_f) and E = ½ B κ². In the plane φ = θ_f − θ_e and
+//! ∂θ/∂e = n/|e|, so ∂κ/∂e = −(1 + κ²/4) n_e/|e| and ∂κ/∂f = (1 + κ²/4) n_f/|f|, n = ẑ × t: the
+//! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
+
+use super::{Scheme, add_spring, gather};
+use crate::lanes::{Isa, Real};
+use crate::model::Model;
+use crate::state::Block;
+
+/// Adds all bending springs to the equations of a step.
+#[inline(always)]
+pub fn assemble<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+    scheme: Scheme<I::F>,
+) {
+    for spring in &model.bend {
+        let (e, f) = (spring.node - 1, spring.node);
+        let te = [isa.load(&block.tangent[2 * e]), isa.load(&block.tangent[2 * e + 1])];
+        let tf = [isa.load(&block.tangent[2 * f]), isa.load(&block.tangent[2 * f + 1])];
+        let cross = te[0] * tf[1] - te[1] * tf[0];
+        let dot = te[0] * tf[0] + te[1] * tf[1];
+        let curvature = (cross * 2.0) / (dot + 1.0);
+        let steepness = curvature * curvature * 0.25 + 1.0;
+        let over_e = steepness * isa.load(&block.inverse_length[e]);
+        let over_f = steepness * isa.load(&block.inverse_length[f]);
+        // ∂κ/∂e and ∂κ/∂f.
+        let de = [te[1] * over_e, -(te[0] * over_e)];
+        let df = [-(tf[1] * over_f), tf[0] * over_f];
+        let gradient = gather(
+            isa,
+            model,
+            block,
+            &spring.stencil,
+            [de.map(|x| -x), [de[0] - df[0], de[1] - df[1]], df],
+        );
+        let stiffness = scheme.stiffness * spring.stiffness_n_m;
+        add_spring(isa, model, block, &spring.stencil, &gradient, curvature, stiffness, scheme);
+    }
+}

@@ -1,0 +1,32 @@
+//! Batched simulator of magnet-driven soft worms (MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167).
+//!
+//! `Scene` (what a person writes) → [`model::Model`] (compiled, shared) → [`state::Block`] (the state of W
+//! environments, one per lane) → [`step`] → [`observe`]. A [`state::Batch`] holds many blocks and runs
+//! them on all cores.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`scene`] | what a person writes; validation |
+//! | [`model`] | mesh, unknowns, springs, masses, the program of terms |
+//! | [`state`] | blocks, batches, snapshots |
+//! | [`lanes`] | vectors of environments, elementary functions, banded systems |
+//! | [`elastic`] | kinematics, stretching and bending of the rod |
+//! | [`magnetic`] | field of a cuboid, wrench between cuboids, dipoles |
+//! | [`contact`] | ground contact and friction |
+//! | [`drive`] | motion of the drive magnets |
+//! | [`integrate`] | the equations of one step |
+//! | [`step`] | a step as a table of contents |
+//! | [`observe`], [`reset`] | observations and actions; initial states |
+
+pub mod contact;
+pub mod drive;
+pub mod elastic;
+pub mod integrate;
+pub mod lanes;
+pub mod magnetic;
+pub mod model;
+pub mod observe;
+pub mod reset;
+pub mod scene;
+pub mod state;
+pub mod step;

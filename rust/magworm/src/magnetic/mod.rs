@@ -1,0 +1,57 @@
+//! Cuboid magnets: field, wrench, dipole approximation.
+//!
+//! | file | model |
+//! |---|---|
+//! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: [`field`] |
+//! | `planar` | wrench between two cuboids in the simulator's plane, in lanes: [`PlanarPair`] |
+//! | `wrench` | wrench in space: [`wrench()`]; in lanes: [`SpatialPair`] |
+//! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`] |
+//! | `uniform` | torque of a uniform field: [`UniformField`] |
+//! | `quadrature` | Gauss–Legendre rules: [`GaussLegendre`] |
+//!
+//! All magnets have unity relative permeability and a uniform, rigid magnetisation J; "remanence"
+//! is J in tesla. Such a magnet acts and feels like the charge σ = J·n/μ0 on its faces.
+//!
+//! Closed-form torques in the literature contain disputed terms, so the torque is always
+//! integrated from the field: T = ∬ σ r × B dS, which quadrature resolves to any accuracy.
+//!
+//! Frames: the simulator has x along the robot, y up and z out of the plane. [`Cuboid`] names its
+//! edges by these directions and is magnetised along its height; the spatial functions take
+//! vectors and any magnetisation.
+
+mod cuboid;
+mod dipole;
+mod planar;
+mod quadrature;
+#[cfg(test)]
+mod tests;
+mod uniform;
+mod wrench;
+
+pub use cuboid::{field, field_t, unit_field, unit_field_outside};
+pub use dipole::{PlanarDipole, dipole_field_t};
+pub use planar::PlanarPair;
+pub use quadrature::{GaussLegendre, MAX_ORDER};
+pub use uniform::UniformField;
+pub use wrench::{Magnet, SpatialPair, Wrench, wrench};
+
+/// Vacuum permeability [N/A²] (CODATA 2022).
+pub const MU_0: f64 = 1.256_637_061_27e-6;
+
+/// Edge lengths of a cuboid magnet that is magnetised along its height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cuboid {
+    /// Edge along the robot, x [m].
+    pub length_m: f64,
+    /// Edge across the ground, y [m].
+    pub height_m: f64,
+    /// Edge across the plane of motion, z [m].
+    pub width_m: f64,
+}
+
+impl Cuboid {
+    /// Volume [m³].
+    pub fn volume_m3(&self) -> f64 {
+        self.length_m * self.height_m * self.width_m
+    }
+}

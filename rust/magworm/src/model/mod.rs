@@ -1,0 +1,300 @@
+//! `compile(Scene) → Model`: everything that does not change in time, shared by all environments.
+
+mod coordinates;
+mod inertia;
+mod magnetics;
+mod mesh;
+
+pub use coordinates::{Anchor, Coordinates, Stencil, Tie, Unknowns};
+pub use inertia::MassPart;
+pub use magnetics::{Magnetics, PairModel};
+pub use mesh::{Element, Mesh, MeshMagnet, Sole};
+
+use crate::drive::DriveModel;
+use crate::lanes::banded::Band;
+use crate::scene::{Integrator, Parameter, Scene, SceneError};
+
+/// A compiled scene.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The scene it was compiled from.
+    pub scene: Scene,
+    /// Nodes and elements.
+    pub mesh: Mesh,
+    /// Unknowns.
+    pub coordinates: Coordinates,
+    /// Matrix shape.
+    pub band: Band,
+    /// Axial springs.
+    pub stretch: Vec<Stretch>,
+    /// Bending springs.
+    pub bend: Vec<Bend>,
+    /// Contributions to the mass of each unknown.
+    pub inertia: Vec<MassPart>,
+    /// Unknowns that are translations, with their axis (0 for x, 1 for y).
+    pub translations: Vec<(usize, usize)>,
+    /// Half length of the body magnets [m].
+    pub half_magnet_m: f64,
+    /// Remanence of a body magnet [T].
+    pub magnet_remanence_t: f64,
+    /// Greatest thickness of the body [m].
+    pub thickness_m: f64,
+    /// Ground contacts.
+    pub contacts: Vec<Contact>,
+    /// The terms of this scene's program; what a scene lacks is absent.
+    pub program: Program,
+    /// Time step [s].
+    pub step_s: f64,
+    /// Solver steps per control step.
+    pub steps_per_control: u32,
+}
+
+/// Optional terms of the equations of motion.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// Gravity along x and y of the ground's frame [m/s²].
+    pub gravity_m_s2: Option<[f64; 2]>,
+    /// Wrench of the drive magnets on the body magnets.
+    pub magnetics: Option<Magnetics>,
+    /// Uniform field along x and y [T], and the moment of a body magnet per tesla of remanence [A·m²/T].
+    pub uniform_field: Option<UniformTorque>,
+    /// Ground contact with friction.
+    pub ground: Option<GroundLaw>,
+    /// The drive's motion.
+    pub drive: Option<DriveModel>,
+}
+
+/// Torque of a uniform field on a body magnet.
+#[derive(Clone, Copy, Debug)]
+pub struct UniformTorque {
+    /// Flux density along x and y [T].
+    pub field_t: [f64; 2],
+    /// Volume / μ0 of a body magnet [A·m²/T].
+    pub moment_per_tesla: f64,
+}
+
+/// Friction of the ground, see [`crate::contact`].
+#[derive(Clone, Copy, Debug)]
+pub struct GroundLaw {
+    /// μ_s.
+    pub static_friction: f64,
+    /// μ_d.
+    pub dynamic_friction: f64,
+    /// v_d [m/s].
+    pub transition_speed_m_s: f64,
+    /// D_f [N].
+    pub adhesion_n: f64,
+    /// Weight of the penalty that holds a contact [kg]: so large against the nodal mass that the
+    /// residual velocity is far below 1e-9 m/s, so small that rounding (1e-16 · weight) leaves the
+    /// masses eight digits.
+    pub weight_kg: f64,
+}
+
+/// Axial spring of an element: E = ½ k (|e| − l)², k = EA/l.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// The element; its nodes are this and the next.
+    pub element: usize,
+    /// Rest length l [m].
+    pub rest_m: f64,
+    /// k = EA/l [N/m].
+    pub stiffness_n_m: f64,
+    /// The unknowns it acts on.
+    pub stencil: Stencil,
+}
+
+/// Bending spring at a node: E = ½ B κ², κ = 2 tan(φ/2).
+#[derive(Clone, Copy, Debug)]
+pub struct Bend {
+    /// The node; its elements are the one before and this.
+    pub node: usize,
+    /// B = 1/(l⁻/2EI⁻ + l⁺/2EI⁺) [N·m]: two halves in series; EI/l̄ where they are alike.
+    pub stiffness_n_m: f64,
+    /// The unknowns it acts on.
+    pub stencil: Stencil,
+}
+
+/// A point of the underside that may touch the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Where it is.
+    pub sole: Sole,
+    /// The unknowns it moves with: those of the two nodes of its element.
+    pub stencil: Stencil,
+}
+
+impl Model {
+    /// Validates and compiles a scene.
+    ///
+    /// # Errors
+    /// A field that is out of its range, or fields that contradict each other.
+    pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
+        scene.validate()?;
+        let mesh = Mesh::new(scene);
+        let unknowns = match scene.solver.integrator {
+            Integrator::Implicit => Unknowns::Reduced,
+            Integrator::Explicit => Unknowns::Multipliers,
+        };
+        let coordinates = Coordinates::new(&mesh, unknowns);
+        let stretch = stretch_springs(scene, &mesh, &coordinates);
+        let bend = bending_springs(scene, &mesh, &coordinates);
+        let contacts = contact_points(&mesh, &coordinates);
+        let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
+        let band = band(&coordinates, &stretch, &bend, &contacts);
+        let program = Program::new(scene, &mesh);
+        let step_s = scene.solver.step_s;
+        Ok(Self {
+            scene: scene.clone(),
+            translations: translations(&coordinates),
+            magnet_remanence_t: scene.magnet.as_ref().map_or(0.0, |m| m.remanence_t),
+            thickness_m: mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max),
+            half_magnet_m: scene.magnet.as_ref().map_or(0.0, |m| 0.5 * m.length_m),
+            steps_per_control: (scene.control.step_s / step_s).round() as u32,
+            step_s,
+            band,
+            stretch,
+            bend,
+            inertia,
+            contacts,
+            program,
+            coordinates,
+            mesh,
+        })
+    }
+
+    /// Number of body magnets, removed ones included.
+    pub fn magnets(&self) -> usize {
+        self.mesh.magnets.len()
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.mesh.arc_m.len()
+    }
+
+    /// The parameters that each environment may have for its own.
+    pub const PARAMETERS: [Parameter; 7] = [
+        Parameter::Stiffness,
+        Parameter::Damping,
+        Parameter::Mass,
+        Parameter::Remanence,
+        Parameter::StaticFriction,
+        Parameter::DynamicFriction,
+        Parameter::DriveSpeed,
+    ];
+}
+
+impl Program {
+    fn new(scene: &Scene, mesh: &Mesh) -> Self {
+        let magnetic = scene.magnet.as_ref().filter(|_| mesh.magnets.iter().any(|m| m.present));
+        let drive = scene.drive.as_ref().map(DriveModel::new);
+        Self {
+            gravity_m_s2: (scene.gravity_m_s2 > 0.0).then(|| gravity(scene)),
+            magnetics: magnetic
+                .zip(scene.drive.as_ref())
+                .map(|(magnet, drive)| Magnetics::new(scene, magnet, drive)),
+            uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| UniformTorque {
+                field_t: [field.x_t, field.y_t],
+                moment_per_tesla: magnet.length_m * magnet.width_m * magnet.height_m
+                    / crate::magnetic::MU_0,
+            }),
+            ground: scene.ground.as_ref().map(|g| GroundLaw {
+                static_friction: g.static_friction,
+                dynamic_friction: g.dynamic_friction,
+                transition_speed_m_s: g.transition_speed_m_s,
+                adhesion_n: g.adhesion_n,
+                weight_kg: 1e8 * typical_node_mass_kg(scene, mesh),
+            }),
+            drive,
+        }
+    }
+}
+
+fn gravity(scene: &Scene) -> [f64; 2] {
+    let incline = scene.ground.as_ref().map_or(0.0, |g| g.incline_deg.to_radians());
+    [scene.gravity_m_s2 * incline.sin(), -scene.gravity_m_s2 * incline.cos()]
+}
+
+fn typical_node_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
+    let volume_m3: f64 = (0..mesh.elements.len())
+        .map(|e| mesh.element_length_m(e) * mesh.elements[e].thickness_m * mesh.width_m)
+        .sum();
+    scene.material.density_kg_m3 * volume_m3 / mesh.arc_m.len() as f64
+}
+
+fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Stretch> {
+    let flexible = |e: &usize| mesh.elements[*e].magnet.is_none() && e + 2 > mesh.fixed_nodes;
+    (0..mesh.elements.len())
+        .filter(flexible)
+        .map(|element| {
+            let rest_m = mesh.element_length_m(element);
+            let area_m2 = mesh.width_m * mesh.elements[element].thickness_m;
+            Stretch {
+                element,
+                rest_m,
+                stiffness_n_m: scene.material.youngs_modulus_pa * area_m2 / rest_m,
+                stencil: Stencil::new(coordinates, &[element, element + 1]),
+            }
+        })
+        .collect()
+}
+
+fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Bend> {
+    // Half an element's bending compliance [1/(N·m)]; a rigid element has none.
+    let compliance = |element: usize| {
+        let Element { thickness_m, magnet } = mesh.elements[element];
+        let second_moment_m4 = mesh.width_m * thickness_m.powi(3) / 12.0;
+        if magnet.is_some() {
+            return 0.0;
+        }
+        0.5 * mesh.element_length_m(element)
+            / (scene.material.youngs_modulus_pa * second_moment_m4)
+    };
+    (1..mesh.elements.len())
+        .map(|node| Bend {
+            node,
+            stiffness_n_m: 1.0 / (compliance(node - 1) + compliance(node)),
+            stencil: Stencil::new(coordinates, &[node - 1, node, node + 1]),
+        })
+        .collect()
+}
+
+fn contact_points(mesh: &Mesh, coordinates: &Coordinates) -> Vec<Contact> {
+    mesh.soles
+        .iter()
+        .map(|&sole| Contact {
+            sole,
+            stencil: Stencil::new(coordinates, &[sole.element, sole.element + 1]),
+        })
+        .filter(|contact| contact.stencil.count > 0)
+        .collect()
+}
+
+fn band(
+    coordinates: &Coordinates,
+    stretch: &[Stretch],
+    bend: &[Bend],
+    contacts: &[Contact],
+) -> Band {
+    let mut band = Band::diagonal(coordinates.count);
+    for tie in &coordinates.ties {
+        let Anchor::Free { dof } = coordinates.anchors[tie.node] else { continue };
+        let body = coordinates.bodies[tie.body];
+        band.couple(&[tie.dof, tie.dof + 1, dof, dof + 1, body, body + 1, body + 2]);
+    }
+    // Explicit schemes have no stiffness in their matrix.
+    if coordinates.ties.is_empty() {
+        stretch.iter().for_each(|s| band.couple(&s.stencil.dofs[..s.stencil.count]));
+        bend.iter().for_each(|b| band.couple(&b.stencil.dofs[..b.stencil.count]));
+    }
+    contacts.iter().for_each(|c| band.couple(&c.stencil.dofs[..c.stencil.count]));
+    band
+}
+
+fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {
+    let free = coordinates.anchors.iter().filter_map(|anchor| match *anchor {
+        Anchor::Free { dof } => Some(dof),
+        _ => None,
+    });
+    free.chain(coordinates.bodies.iter().copied()).flat_map(|dof| [(dof, 0), (dof + 1, 1)]).collect()
+}

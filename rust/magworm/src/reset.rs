@@ -1,0 +1,183 @@
+//! Initial states: the straight body at rest, and what each environment draws at random.
+
+use crate::drive::{DriveModel, Path};
+use crate::model::{Anchor, Model};
+use crate::scene::Parameter;
+use crate::state::{Block, Status};
+
+/// Pose of the straight body at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartPose {
+    /// Shift along x [m].
+    pub x_m: f64,
+    /// Height of the lowest point over the ground [m].
+    pub height_m: f64,
+    /// Rotation about the head end, anticlockwise [rad].
+    pub angle_rad: f64,
+}
+
+/// Numbers that depend on (seed, episode, place in the sequence) alone: SplitMix64 (Steele, Lea &
+/// Flood 2014) as a counter-based generator. Equal for any batch size, order and thread count.
+#[derive(Clone, Copy, Debug)]
+pub struct Draws {
+    key: u64,
+    count: u64,
+}
+
+impl Draws {
+    /// The sequence of one episode of one environment.
+    pub fn new(seed: u64, episode: u64) -> Self {
+        Self { key: mix(mix(seed) ^ episode.wrapping_mul(0xd134_2543_de82_ef95)), count: 0 }
+    }
+
+    /// The next number, uniform in [low, high).
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        self.count += 1;
+        let bits = mix(self.key.wrapping_add(self.count.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
+        low + (high - low) * (bits >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// The scene's start pose.
+pub fn scene_start(model: &Model) -> StartPose {
+    let start = &model.scene.start;
+    StartPose {
+        x_m: start.x_m,
+        height_m: start.height_m,
+        angle_rad: start.angle_deg.to_radians(),
+    }
+}
+
+/// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
+pub fn rest<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize) {
+    for row in block.factors.iter_mut() {
+        row[lane] = 1.0;
+    }
+    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
+        block.present[body][lane] = f64::from(u8::from(magnet.present));
+    }
+    lay_straight(model, block, lane, scene_start(model));
+    apply_parameters(model, block, lane);
+    block.status[lane] = Status::Unused;
+}
+
+/// Starts an episode in one lane.
+pub fn reset<const W: usize>(
+    model: &Model,
+    block: &mut Block<W>,
+    lane: usize,
+    start: StartPose,
+    factors: &[f64],
+    present: &[bool],
+    mut draws: Draws,
+) {
+    for (k, &factor) in factors.iter().enumerate() {
+        block.factors[k][lane] = factor;
+    }
+    for variation in &model.scene.reset.vary {
+        let drawn = draws.uniform(variation.low, variation.high);
+        block.factors[variation.parameter as usize][lane] *= drawn;
+    }
+    for (body, &is_in) in present.iter().enumerate() {
+        block.present[body][lane] = f64::from(u8::from(is_in));
+    }
+    lay_straight(model, block, lane, start);
+    apply_parameters(model, block, lane);
+    if let Some(drive) = &model.program.drive {
+        place_drive(model, drive, block, lane, &mut draws);
+    }
+    block.status[lane] = Status::Running;
+}
+
+fn lay_straight<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize, start: StartPose) {
+    for rows in block.state_rows_mut().into_iter().take(5) {
+        rows.iter_mut().for_each(|row| row[lane] = 0.0);
+    }
+    block.step_count[0][lane] = 0.0;
+    let (sin, cos) = start.angle_rad.sin_cos();
+    let head = [start.x_m, start.height_m + drop_to_lowest(model, sin, cos)];
+    let place = |arc: f64| [head[0] + arc * cos, head[1] + arc * sin];
+    for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
+        let [x, y] = place(model.mesh.arc_m[node]);
+        match *anchor {
+            Anchor::Free { dof } => {
+                block.q[dof][lane] = x;
+                block.q[dof + 1][lane] = y;
+            }
+            Anchor::Fixed => {
+                block.held[2 * node][lane] = x;
+                block.held[2 * node + 1][lane] = y;
+            }
+            Anchor::Rigid { .. } => {}
+        }
+    }
+    for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
+        let element = model.mesh.magnets[body].element;
+        let middle = 0.5 * (model.mesh.arc_m[element] + model.mesh.arc_m[element + 1]);
+        let [x, y] = place(middle);
+        block.q[dof][lane] = x;
+        block.q[dof + 1][lane] = y;
+        block.q[dof + 2][lane] = start.angle_rad;
+    }
+}
+
+/// How far the centre line's head end lies above the lowest contact point; 0 without ground.
+fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
+    let below = |sole: &crate::model::Sole| sole.depth_m * cos - model.mesh.arc_m[sole.node] * sin;
+    model.mesh.soles.iter().map(below).fold(None, |most: Option<f64>, d| {
+        Some(most.map_or(d, |m| m.max(d)))
+    }).unwrap_or(0.0)
+}
+
+/// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.
+pub fn apply_parameters<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize) {
+    let factor = |block: &Block<W>, p: Parameter| block.factors[p as usize][lane];
+    let mass_factor = factor(block, Parameter::Mass);
+    block.mass.iter_mut().for_each(|row| row[lane] = 0.0);
+    for part in &model.inertia {
+        let is_in = part.body.is_some_and(|body| block.present[body][lane] == 1.0);
+        let cavity = if is_in { part.magnet } else { part.fill };
+        block.mass[part.dof][lane] += mass_factor * (part.rubber + cavity);
+    }
+    let remanence = factor(block, Parameter::Remanence) * model.magnet_remanence_t;
+    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
+        block.remanence[body][lane] = remanence * magnet.polarity * block.present[body][lane];
+    }
+}
+
+fn place_drive<const W: usize>(
+    model: &Model,
+    drive: &DriveModel,
+    block: &mut Block<W>,
+    lane: usize,
+    draws: &mut Draws,
+) {
+    let point = match &drive.path {
+        Path::Controlled(limits) => {
+            let centre = block.centre_x(model, lane);
+            if model.scene.reset.random_drive {
+                [
+                    centre + draws.uniform(-limits.reach_m, limits.reach_m),
+                    draws.uniform(limits.lowest_m, limits.highest_m),
+                ]
+            } else {
+                [centre, limits.lowest_m]
+            }
+        }
+        Path::Constant { start_m, .. } => *start_m,
+        Path::Waypoints { point_m, .. } => point_m[0],
+    };
+    for k in 0..2 {
+        block.stage[k][lane] = point[k];
+        block.stage[k + 2][lane] = 0.0;
+        block.target[k][lane] = point[k];
+    }
+    block.target[2][lane] = 0.0;
+    block.action.iter_mut().for_each(|row| row[lane] = 0.0);
+}

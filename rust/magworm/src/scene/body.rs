@@ -1,0 +1,116 @@
+//! The soft body and its magnets.
+
+use serde::{Deserialize, Serialize};
+
+/// The soft body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Body {
+    /// Thick feet that hold one magnet each, joined by thin bridges.
+    Worm(Worm),
+    /// A rod of constant section.
+    Rod(Rod),
+}
+
+/// Feet joined by bridges: length = (magnets − 1) · pitch + foot length.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worm {
+    /// Number of feet, each made for one magnet.
+    pub magnets: usize,
+    /// Distance between the centres of adjacent magnets [m].
+    pub pitch_m: f64,
+    /// Length of a foot along the robot [m].
+    pub foot_length_m: f64,
+    /// Thickness of the body at a foot [m].
+    pub foot_thickness_m: f64,
+    /// Thickness of the body between feet [m].
+    pub bridge_thickness_m: f64,
+    /// Width of the body, out of the plane [m].
+    pub width_m: f64,
+    /// Polarity of the first magnet: 1 attracted by the drive beneath it, −1 repelled. The others alternate.
+    #[serde(default = "one")]
+    pub first_polarity: i8,
+    /// Magnets taken out, counted from 0 at the head. The cavity is filled with rubber and the
+    /// foot stays as stiff as before: an assumption, so that robots with different damage fit in one batch.
+    #[serde(default)]
+    pub removed: Vec<usize>,
+    /// Rod elements per bridge.
+    pub elements_per_bridge: usize,
+    /// Rod elements between the end of a magnet and the end of its foot.
+    pub elements_per_foot_end: usize,
+}
+
+/// A rod of constant rectangular section along x.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rod {
+    /// Length [m].
+    pub length_m: f64,
+    /// Width, out of the plane [m].
+    pub width_m: f64,
+    /// Thickness, in the plane [m].
+    pub thickness_m: f64,
+    /// Number of rod elements; more are added where magnets end.
+    pub elements: usize,
+    /// Whether the head end is clamped.
+    #[serde(default)]
+    pub clamp: Clamp,
+    /// Magnets in the rod.
+    #[serde(default)]
+    pub magnets: Vec<RodMagnet>,
+}
+
+/// How the head end of a rod is held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Clamp {
+    /// Free.
+    #[default]
+    None,
+    /// Position and slope held.
+    Head,
+}
+
+/// A magnet in a rod.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RodMagnet {
+    /// Position of its centre along the rod, from the head [m].
+    pub position_m: f64,
+    /// 1: magnetised along +y of the rest rod, −1: along −y.
+    pub polarity: i8,
+}
+
+/// Rubber: linear elastic with Kelvin–Voigt damping, σ = E (ε + τ ε̇).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E [Pa].
+    pub youngs_modulus_pa: f64,
+    /// Density [kg/m³].
+    pub density_kg_m3: f64,
+    /// Kelvin–Voigt retardation time τ [s].
+    #[serde(default)]
+    pub damping_time_s: f64,
+}
+
+/// A cuboid permanent magnet of the body, magnetised along its height.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Magnet {
+    /// Edge along the robot [m].
+    pub length_m: f64,
+    /// Edge out of the plane [m].
+    pub width_m: f64,
+    /// Edge along the thickness [m].
+    pub height_m: f64,
+    /// Magnitude of the remanence |Br| [T].
+    pub remanence_t: f64,
+    /// Density [kg/m³].
+    pub density_kg_m3: f64,
+}
+
+fn one() -> i8 {
+    1
+}

@@ -1,0 +1,112 @@
+//! Drive magnets: their shape, how many, how they move.
+
+use serde::{Deserialize, Serialize};
+
+/// Equal cuboid magnets beneath the ground, axis-aligned, magnetised along +y (their height).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drive {
+    /// Edge along x [m].
+    pub length_m: f64,
+    /// Edge along z [m].
+    pub width_m: f64,
+    /// Edge along y [m].
+    pub height_m: f64,
+    /// Magnitude of the remanence |Br| [T].
+    pub remanence_t: f64,
+    /// Which point of the magnet the heights `y_m` of this scene speak of.
+    #[serde(default)]
+    pub reference: Reference,
+    /// One magnet, a pair or a belt.
+    #[serde(default)]
+    pub arrangement: Arrangement,
+    /// How the arrangement moves.
+    pub motion: Motion,
+}
+
+/// The point of a drive magnet whose height is given. The paper's −22 mm leaves it open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reference {
+    /// The centre.
+    #[default]
+    Centre,
+    /// The top face.
+    Top,
+}
+
+/// How many drive magnets there are and how they stand to each other.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Arrangement {
+    /// One magnet on a stage.
+    #[default]
+    Single,
+    /// Two magnets side by side along x, centred on the stage.
+    Pair {
+        /// Distance between their centres [m].
+        spacing_m: f64,
+        /// 1 where the second has the polarity of the first, −1 where it is opposed.
+        second_polarity: i8,
+    },
+    /// A conveyor belt: `count` magnets at equal pitch that come round again, so that a robot
+    /// meets them without end.
+    Belt {
+        /// Distance between adjacent magnets [m].
+        pitch_m: f64,
+        /// Number of magnets simulated around the robot.
+        count: usize,
+    },
+}
+
+/// Motion of the drive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Motion {
+    /// Follows the actions of a controller within the limits of the stage.
+    Controlled(StageLimits),
+    /// Constant velocity along x from a starting point.
+    Constant {
+        /// Start along x [m].
+        x_m: f64,
+        /// Height [m], negative beneath the ground.
+        y_m: f64,
+        /// Velocity along x [m/s].
+        speed_m_s: f64,
+    },
+    /// Straight lines between points in time; at rest after the last.
+    Waypoints {
+        /// Times, strictly rising from 0 [s].
+        time_s: Vec<f64>,
+        /// Position along x at each time [m].
+        x_m: Vec<f64>,
+        /// Height at each time [m].
+        y_m: Vec<f64>,
+    },
+}
+
+/// Limits of the stage that carries the drive. Each axis obeys them on its own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StageLimits {
+    /// Furthest target along x, ahead of or behind the robot's centre [m].
+    pub reach_m: f64,
+    /// Lowest height [m].
+    pub lowest_m: f64,
+    /// Greatest height [m].
+    pub highest_m: f64,
+    /// Greatest speed of each axis [m/s].
+    #[serde(default = "platform_speed")]
+    pub speed_m_s: f64,
+    /// Greatest acceleration of each axis [m/s²].
+    #[serde(default = "stage_acceleration")]
+    pub acceleration_m_s2: f64,
+}
+
+fn platform_speed() -> f64 {
+    0.210
+}
+
+fn stage_acceleration() -> f64 {
+    5.0
+}

@@ -1,0 +1,282 @@
+//! Every field of a scene with its unit and range. What it means stands at the field of the struct.
+//!
+//! Ranges are wide: they keep out slips of unit and what no method here can compute, not scenes
+//! that are merely unusual. Where fields depend on each other, see the rules beside this file.
+
+use super::schema::{Kind, Table, Variant, optional, real, required, whole};
+
+/// Most magnets in a body.
+pub(super) const MOST_MAGNETS: i64 = 32;
+/// Most drive magnets.
+pub(super) const MOST_DRIVE_MAGNETS: i64 = 16;
+/// Greatest speed of a drive [m/s].
+pub(super) const GREATEST_DRIVE_SPEED_M_S: f64 = 10.0;
+/// Most points in time of a drive that moves between waypoints.
+pub(super) const MOST_WAYPOINTS: usize = 10_000;
+
+const EDGE: Kind = real("m", 1e-4, 0.5);
+const THICKNESS: Kind = real("m", 1e-4, 0.03);
+const REMANENCE: Kind = real("T", 0.0, 10.0);
+const DENSITY: Kind = real("kg/m³", 1.0, 1e5);
+const POSITION: Kind = real("m", -10.0, 10.0);
+const HEIGHT: Kind = real("m", -1.0, 1.0);
+const FLUX_DENSITY: Kind = real("T", -10.0, 10.0);
+const FRICTION: Kind = real("", 0.0, 10.0);
+const FACTOR: Kind = real("", 1e-3, 1e3);
+const SHORT: Kind = real("s", 1e-7, 0.05);
+
+pub(super) static SCENE: Table = Table {
+    fields: &[
+        optional("name", Kind::Text),
+        optional("gravity_m_s2", real("m/s²", 0.0, 981.0)),
+        required("body", Kind::Variants(BODY)),
+        required("material", Kind::Table(&MATERIAL)),
+        optional("magnet", Kind::Table(&MAGNET)),
+        optional("ground", Kind::Table(&GROUND)),
+        optional("drive", Kind::Table(&DRIVE)),
+        optional("field", Kind::Table(&FIELD)),
+        optional("magnetic_terms", Kind::Table(&MAGNETIC_TERMS)),
+        optional("start", Kind::Table(&START)),
+        optional("solver", Kind::Table(&SOLVER)),
+        optional("control", Kind::Table(&CONTROL)),
+        optional("reset", Kind::Table(&RESET)),
+    ],
+};
+
+const BODY: &[Variant] =
+    &[Variant { name: "worm", table: &WORM }, Variant { name: "rod", table: &ROD }];
+
+static WORM: Table = Table {
+    fields: &[
+        required("magnets", whole(1, MOST_MAGNETS)),
+        required("pitch_m", real("m", 1e-3, 1.0)),
+        required("foot_length_m", EDGE),
+        required("foot_thickness_m", THICKNESS),
+        required("bridge_thickness_m", THICKNESS),
+        required("width_m", EDGE),
+        optional("first_polarity", Kind::Polarity),
+        optional("removed", Kind::List { of: &whole(0, MOST_MAGNETS - 1), most: 32 }),
+        required("elements_per_bridge", whole(1, 999)),
+        required("elements_per_foot_end", whole(1, 999)),
+    ],
+};
+
+static ROD: Table = Table {
+    fields: &[
+        required("length_m", real("m", 1e-3, 10.0)),
+        required("width_m", EDGE),
+        required("thickness_m", THICKNESS),
+        required("elements", whole(1, 999)),
+        optional("clamp", Kind::Choice(&["none", "head"])),
+        optional("magnets", Kind::List { of: &Kind::Table(&ROD_MAGNET), most: 32 }),
+    ],
+};
+
+static ROD_MAGNET: Table = Table {
+    fields: &[required("position_m", real("m", 0.0, 10.0)), required("polarity", Kind::Polarity)],
+};
+
+static MATERIAL: Table = Table {
+    fields: &[
+        required("youngs_modulus_pa", real("Pa", 1e2, 1e11)),
+        required("density_kg_m3", DENSITY),
+        optional("damping_time_s", real("s", 0.0, 1.0)),
+    ],
+};
+
+static MAGNET: Table = Table {
+    fields: &[
+        required("length_m", EDGE),
+        required("width_m", EDGE),
+        required("height_m", EDGE),
+        required("remanence_t", REMANENCE),
+        required("density_kg_m3", DENSITY),
+    ],
+};
+
+static GROUND: Table = Table {
+    fields: &[
+        required("static_friction", FRICTION),
+        required("dynamic_friction", FRICTION),
+        optional("transition_speed_m_s", real("m/s", 1e-9, 1.0)),
+        optional("adhesion_n", real("N", 0.0, 100.0)),
+        optional("incline_deg", real("°", -90.0, 90.0)),
+    ],
+};
+
+static DRIVE: Table = Table {
+    fields: &[
+        required("length_m", EDGE),
+        required("width_m", EDGE),
+        required("height_m", EDGE),
+        required("remanence_t", REMANENCE),
+        optional("reference", Kind::Choice(&["centre", "top"])),
+        optional("arrangement", Kind::Variants(ARRANGEMENT)),
+        required("motion", Kind::Variants(MOTION)),
+    ],
+};
+
+const ARRANGEMENT: &[Variant] = &[
+    Variant { name: "single", table: &Table { fields: &[] } },
+    Variant { name: "pair", table: &PAIR },
+    Variant { name: "belt", table: &BELT },
+];
+
+static PAIR: Table = Table {
+    fields: &[
+        required("spacing_m", real("m", 1e-4, 1.0)),
+        required("second_polarity", Kind::Polarity),
+    ],
+};
+
+static BELT: Table = Table {
+    fields: &[
+        required("pitch_m", real("m", 1e-3, 10.0)),
+        required("count", whole(1, MOST_DRIVE_MAGNETS)),
+    ],
+};
+
+const MOTION: &[Variant] = &[
+    Variant { name: "controlled", table: &STAGE_LIMITS },
+    Variant { name: "constant", table: &CONSTANT },
+    Variant { name: "waypoints", table: &WAYPOINTS },
+];
+
+static STAGE_LIMITS: Table = Table {
+    fields: &[
+        required("reach_m", real("m", 1e-4, 10.0)),
+        required("lowest_m", HEIGHT),
+        required("highest_m", HEIGHT),
+        optional("speed_m_s", real("m/s", 1e-4, GREATEST_DRIVE_SPEED_M_S)),
+        optional("acceleration_m_s2", real("m/s²", 1e-3, 1e6)),
+    ],
+};
+
+static CONSTANT: Table = Table {
+    fields: &[
+        required("x_m", POSITION),
+        required("y_m", HEIGHT),
+        required("speed_m_s", real("m/s", -GREATEST_DRIVE_SPEED_M_S, GREATEST_DRIVE_SPEED_M_S)),
+    ],
+};
+
+static WAYPOINTS: Table = Table {
+    fields: &[
+        required("time_s", Kind::List { of: &real("s", 0.0, 1e5), most: MOST_WAYPOINTS }),
+        required("x_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
+        required("y_m", Kind::List { of: &HEIGHT, most: MOST_WAYPOINTS }),
+    ],
+};
+
+static FIELD: Table =
+    Table { fields: &[required("x_t", FLUX_DENSITY), required("y_t", FLUX_DENSITY)] };
+
+static MAGNETIC_TERMS: Table = Table {
+    fields: &[
+        optional("horizontal_force", Kind::Flag),
+        optional("vertical_force", Kind::Flag),
+        optional("torque", Kind::Flag),
+    ],
+};
+
+static START: Table = Table {
+    fields: &[
+        optional("x_m", POSITION),
+        optional("height_m", POSITION),
+        optional("angle_deg", real("°", -360.0, 360.0)),
+    ],
+};
+
+static SOLVER: Table = Table {
+    fields: &[
+        optional("integrator", Kind::Choice(&["implicit", "explicit"])),
+        optional("step_s", SHORT),
+        optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
+        optional("quadrature_order", whole(1, 10)),
+        optional("contact_iterations", whole(1, 1000)),
+    ],
+};
+
+static CONTROL: Table = Table {
+    fields: &[
+        optional("step_s", real("s", 1e-7, 10.0)),
+        optional("episode_s", real("s", 1e-7, 1e5)),
+    ],
+};
+
+static RESET: Table = Table {
+    fields: &[
+        optional("random_drive", Kind::Flag),
+        optional("vary", Kind::List { of: &Kind::Table(&VARIATION), most: PARAMETERS.len() }),
+    ],
+};
+
+const PARAMETERS: &[&str] = &[
+    "stiffness",
+    "damping",
+    "mass",
+    "remanence",
+    "static_friction",
+    "dynamic_friction",
+    "drive_speed",
+];
+
+static VARIATION: Table = Table {
+    fields: &[
+        required("parameter", Kind::Choice(PARAMETERS)),
+        required("low", FACTOR),
+        required("high", FACTOR),
+    ],
+};
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scene;
+    use super::super::schema::{Kind, Table, Variant};
+    use super::SCENE;
+
+    /// Paths of the grammar that a serialised scene with every table lacks.
+    fn lacking(values: &toml::Table, table: &Table, path: &str) -> Vec<String> {
+        let mut found = vec![];
+        for field in table.fields {
+            let path = format!("{path}.{}", field.name);
+            match (values.get(field.name), &field.kind) {
+                (None, _) => found.push(path),
+                (Some(toml::Value::Table(inner)), Kind::Table(table)) => {
+                    found.extend(lacking(inner, table, &path));
+                }
+                (Some(toml::Value::Table(inner)), Kind::Variants(variants)) => {
+                    found.extend(lacking(inner, chosen(inner, variants), &path));
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    fn chosen(values: &toml::Table, variants: &[Variant]) -> &'static Table {
+        let name = values["kind"].as_str().expect("a kind");
+        variants.iter().find(|variant| variant.name == name).expect("a variant").table
+    }
+
+    #[test]
+    fn the_structs_have_every_field_of_the_grammar() {
+        let field = ("field".into(), Some("{ x_t = 0, y_t = 0 }".parse().expect("TOML")));
+        let pair = "{ kind = \"pair\", spacing_m = 0.05, second_polarity = 1 }";
+        let points = "{ kind = \"waypoints\", time_s = [0], x_m = [0], y_m = [0] }";
+        let rod =
+            "{ kind = \"rod\", length_m = 1, width_m = 0.1, thickness_m = 0.01, elements = 9 }";
+        for (preset, path, value) in [
+            ("paper-3", "name", "\"controlled\""),
+            ("belt-125", "name", "\"constant\""),
+            ("paper-3", "drive.arrangement", pair),
+            ("paper-3", "drive.motion", points),
+            ("paper-3", "body", rod),
+        ] {
+            let edits = [field.clone(), (path.into(), Some(value.parse().expect("TOML")))];
+            let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
+            let values = scene.and_then(|scene| Ok(scene.to_table()?)).expect("a scene");
+            assert_eq!(lacking(&values, &SCENE, ""), Vec::<String>::new());
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! What a person writes: the robot, its surroundings, the drive, how to integrate.
+//!
+//! A [`Scene`] is plain data in SI units (the unit is the end of each name), read from TOML,
+//! validated once and then compiled into a [`Model`](crate::model::Model).
+//!
+//! Frame: x along the rest robot from head to tail, y up, z = x × y; the ground is y = 0. The head
+//! end of the rest robot stands at x = 0. A drive magnet that moves in +x makes the robot crawl
+//! in −x.
+
+mod body;
+mod check;
+mod drive;
+mod edit;
+mod error;
+mod fields;
+mod lines;
+mod parse;
+mod preset;
+mod rules;
+mod schema;
+mod solver;
+mod surroundings;
+mod validate;
+
+pub use body::{Body, Clamp, Magnet, Material, Rod, RodMagnet, Worm};
+pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
+pub use error::{Problem, SceneError};
+pub use preset::PRESETS;
+pub use solver::{Control, Integrator, MagnetModel, Parameter, Reset, Solver, Start, Variation};
+pub use surroundings::{Ground, MagneticTerms, UniformField};
+
+use serde::{Deserialize, Serialize};
+
+/// A scene: everything that a simulation needs to know.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Name, for reports.
+    #[serde(default)]
+    pub name: String,
+    /// Gravitational acceleration [m/s²]; 0 leaves gravity out.
+    #[serde(default = "standard_gravity")]
+    pub gravity_m_s2: f64,
+    /// The soft body: a worm with feet or a uniform rod.
+    pub body: Body,
+    /// Its rubber.
+    pub material: Material,
+    /// The body magnets, all of one kind; needed where the body has any.
+    #[serde(default)]
+    pub magnet: Option<Magnet>,
+    /// Flat ground; none leaves contact out.
+    #[serde(default)]
+    pub ground: Option<Ground>,
+    /// Drive magnets beneath the ground; none leaves their wrench out.
+    #[serde(default)]
+    pub drive: Option<Drive>,
+    /// A uniform magnetic field; none leaves it out.
+    #[serde(default)]
+    pub field: Option<UniformField>,
+    /// Components of the magnetic wrench to keep (ablations).
+    #[serde(default)]
+    pub magnetic_terms: MagneticTerms,
+    /// Pose at the start.
+    #[serde(default)]
+    pub start: Start,
+    /// Time integration.
+    #[serde(default)]
+    pub solver: Solver,
+    /// Control period and length of an episode.
+    #[serde(default)]
+    pub control: Control,
+    /// What a reset draws at random.
+    #[serde(default)]
+    pub reset: Reset,
+}
+
+fn standard_gravity() -> f64 {
+    9.81
+}

@@ -1,0 +1,55 @@
+//! Rules of time steps and of what a reset varies.
+
+use super::super::error::Problem;
+use super::super::schema::quantity;
+use super::super::{Integrator, Parameter, Scene};
+use super::require;
+
+/// Shortest step of the implicit scheme [s]: below it the inertia swamps the elastic terms.
+const SHORTEST_IMPLICIT_STEP_S: f64 = 1e-5;
+/// Most steps that one period may hold; beyond it "a whole number" drowns in rounding.
+const MOST_STEPS: f64 = 1e8;
+/// Relative error of a ratio that still counts as whole.
+const WHOLE: f64 = 1e-9;
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    let (step_s, control) = (scene.solver.step_s, &scene.control);
+    let implicit = scene.solver.integrator == Integrator::Implicit;
+    require(
+        !implicit || step_s >= SHORTEST_IMPLICIT_STEP_S,
+        "solver.step_s",
+        quantity(step_s, "s"),
+        || format!("{} or more for implicit", quantity(SHORTEST_IMPLICIT_STEP_S, "s")),
+    )?;
+    whole_number("control.step_s", control.step_s, "solver.step_s", step_s)?;
+    whole_number("control.episode_s", control.episode_s, "control.step_s", control.step_s)?;
+    variations(scene)
+}
+
+fn whole_number(field: &str, period_s: f64, part: &str, part_s: f64) -> Result<(), Problem> {
+    let ratio = period_s / part_s;
+    let whole = ratio.round();
+    let holds = (1.0..=MOST_STEPS).contains(&whole) && (ratio - whole).abs() <= WHOLE * whole;
+    require(holds, field, quantity(period_s, "s"), || {
+        format!("1 to 1e8 times {part} = {}, a whole number of times", quantity(part_s, "s"))
+    })
+}
+
+fn variations(scene: &Scene) -> Result<(), Problem> {
+    let vary = &scene.reset.vary;
+    vary.iter().enumerate().try_for_each(|(place, one)| {
+        let path = format!("reset.vary[{place}]");
+        let twice = vary[..place].iter().any(|other| other.parameter == one.parameter);
+        require(!twice, format!("{path}.parameter"), name(one.parameter), || {
+            "each parameter at most once".into()
+        })?;
+        require(one.low <= one.high, format!("{path}.low"), quantity(one.low, ""), || {
+            format!("at most {path}.high = {}", quantity(one.high, ""))
+        })
+    })
+}
+
+fn name(parameter: Parameter) -> String {
+    toml::Value::try_from(parameter)
+        .map_or_else(|_| format!("{parameter:?}"), |name| name.to_string())
+}

@@ -1,0 +1,122 @@
+//! Time integration, control, start and reset.
+
+use serde::{Deserialize, Serialize};
+
+/// Time integration of the equations of motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solver {
+    /// Which scheme.
+    pub integrator: Integrator,
+    /// Time step [s].
+    pub step_s: f64,
+    /// Model of the drive's wrench on a body magnet.
+    pub magnet_model: MagnetModel,
+    /// Gauss–Legendre points per edge of a charged face.
+    pub quadrature_order: usize,
+    /// Most contact iterations per step.
+    pub contact_iterations: usize,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self {
+            integrator: Integrator::Implicit,
+            step_s: 2e-3,
+            magnet_model: MagnetModel::Cuboid,
+            quadrature_order: 3,
+            contact_iterations: 24,
+        }
+    }
+}
+
+/// A scheme of time integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// Linearly implicit Euler with a velocity-level contact solve; rigid magnets eliminated.
+    Implicit,
+    /// The paper's: explicit forces, rigid magnets held by Lagrange multipliers.
+    Explicit,
+}
+
+/// Model of the wrench between two magnets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MagnetModel {
+    /// Closed-form cuboid field, integrated over the charged faces.
+    Cuboid,
+    /// Point dipoles: good far away only.
+    Dipole,
+}
+
+/// Control period and length of an episode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Control {
+    /// Time between two actions [s]; a whole number of solver steps.
+    pub step_s: f64,
+    /// Length of an episode [s].
+    pub episode_s: f64,
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self { step_s: 0.02, episode_s: 10.0 }
+    }
+}
+
+/// Pose of the straight body at the start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Start {
+    /// Shift along x [m].
+    pub x_m: f64,
+    /// Height of the lowest point over the ground [m].
+    pub height_m: f64,
+    /// Rotation about the head end, anticlockwise [°].
+    pub angle_deg: f64,
+}
+
+/// What a reset draws at random, from each environment's own seed and episode.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Reset {
+    /// Whether a controlled drive starts at a random place within its limits; else it starts
+    /// centred and low.
+    pub random_drive: bool,
+    /// Parameters to vary.
+    pub vary: Vec<Variation>,
+}
+
+/// A parameter multiplied by a factor drawn uniformly from [low, high].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variation {
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// Smallest factor.
+    pub low: f64,
+    /// Largest factor.
+    pub high: f64,
+}
+
+/// Parameters that each environment of a batch may have for its own, as factors of the scene's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Parameter {
+    /// Young's modulus.
+    Stiffness,
+    /// Kelvin–Voigt retardation time.
+    Damping,
+    /// Mass of rubber and magnets.
+    Mass,
+    /// Remanence of the body magnets.
+    Remanence,
+    /// Static coefficient of friction.
+    StaticFriction,
+    /// Dynamic coefficient of friction.
+    DynamicFriction,
+    /// Velocity of a drive in constant motion.
+    DriveSpeed,
+}

@@ -1,0 +1,55 @@
+//! Ground, uniform field, and the choice of magnetic terms.
+
+use serde::{Deserialize, Serialize};
+
+/// Flat, rigid ground with static and dynamic friction (paper, contact section):
+/// a foot that moves no faster than `v_d` holds up to μ_s N + D_f, beyond that it slides with μ_d N + D_f.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ground {
+    /// Static coefficient of friction μ_s.
+    pub static_friction: f64,
+    /// Dynamic coefficient of friction μ_d ≤ μ_s.
+    pub dynamic_friction: f64,
+    /// Speed v_d up to which a contact may stick [m/s].
+    #[serde(default = "transition_speed")]
+    pub transition_speed_m_s: f64,
+    /// Tangential adhesion D_f of each contact point [N].
+    #[serde(default)]
+    pub adhesion_n: f64,
+    /// Incline [°]: positive runs downhill towards +x. Gravity is turned, the frame stays with the ground.
+    #[serde(default)]
+    pub incline_deg: f64,
+}
+
+/// A uniform magnetic flux density in the plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UniformField {
+    /// Component along x [T].
+    pub x_t: f64,
+    /// Component along y [T].
+    pub y_t: f64,
+}
+
+/// Components of the magnetic wrench that act; the paper's ablations switch single ones off.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MagneticTerms {
+    /// Force along x.
+    pub horizontal_force: bool,
+    /// Force along y.
+    pub vertical_force: bool,
+    /// Torque about z.
+    pub torque: bool,
+}
+
+impl Default for MagneticTerms {
+    fn default() -> Self {
+        Self { horizontal_force: true, vertical_force: true, torque: true }
+    }
+}
+
+fn transition_speed() -> f64 {
+    1e-3
+}

@@ -1,0 +1,116 @@
+//! Random valid scenes: the whole space that validation admits, its corners included.
+
+mod body;
+mod dice;
+mod drive;
+
+use magworm::scene::*;
+use proptest::prelude::*;
+
+use dice::{Dice, dice};
+
+/// Valid scenes whose bodies have at most `most_nodes` nodes (6 or more, at most 1000).
+pub fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
+    let body = dice(24).prop_map(move |mut dice| body::body(&mut dice, most_nodes));
+    let drive = prop::option::of(dice(64).prop_map(|mut dice| drive::drive(&mut dice)));
+    let ground = prop::option::of(dice(5).prop_map(|mut dice| ground(&mut dice)));
+    let field = prop::option::of(dice(2).prop_map(|mut dice| uniform_field(&mut dice)));
+    let time = dice(8).prop_map(|mut dice| (solver(&mut dice), dice));
+    (body, drive, ground, field, time, dice(9), dice(20), ".{0,12}").prop_map(
+        |((body, magnet), drive, ground, field, (solver, mut time), mut rest, mut reset, name)| {
+            Scene {
+                name,
+                gravity_m_s2: rest.between(0.0, 981.0),
+                body,
+                material: material(&mut rest),
+                magnet,
+                magnetic_terms: magnetic_terms(&mut rest),
+                start: start(&mut reset, ground.is_some()),
+                ground,
+                drive,
+                field,
+                control: control(&mut time, &solver),
+                solver,
+                reset: random_reset(&mut reset),
+            }
+        },
+    )
+}
+
+fn material(dice: &mut Dice) -> Material {
+    Material {
+        youngs_modulus_pa: dice.decades(1e2, 1e11),
+        density_kg_m3: dice.decades(1.0, 1e5),
+        damping_time_s: if dice.coin() { 0.0 } else { dice.decades(1e-6, 1.0) },
+    }
+}
+
+fn ground(dice: &mut Dice) -> Ground {
+    let static_friction = dice.between(0.0, 10.0);
+    Ground {
+        static_friction,
+        dynamic_friction: dice.between(0.0, static_friction),
+        transition_speed_m_s: dice.decades(1e-9, 1.0),
+        adhesion_n: dice.between(0.0, 100.0),
+        incline_deg: dice.between(-90.0, 90.0),
+    }
+}
+
+fn uniform_field(dice: &mut Dice) -> UniformField {
+    UniformField { x_t: dice.between(-10.0, 10.0), y_t: dice.between(-10.0, 10.0) }
+}
+
+fn magnetic_terms(dice: &mut Dice) -> MagneticTerms {
+    MagneticTerms {
+        horizontal_force: dice.coin(),
+        vertical_force: dice.coin(),
+        torque: dice.coin(),
+    }
+}
+
+fn start(dice: &mut Dice, on_ground: bool) -> Start {
+    Start {
+        x_m: dice.between(-10.0, 10.0),
+        height_m: dice.between(if on_ground { 0.0 } else { -10.0 }, 10.0),
+        angle_deg: dice.between(-360.0, 360.0),
+    }
+}
+
+fn solver(dice: &mut Dice) -> Solver {
+    let integrator = dice.one_of(&[Integrator::Implicit, Integrator::Explicit]);
+    let shortest_s = if integrator == Integrator::Implicit { 1e-5 } else { 1e-7 };
+    Solver {
+        integrator,
+        step_s: dice.decades(shortest_s, 0.05),
+        magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Dipole]),
+        quadrature_order: dice.whole(1, 10),
+        contact_iterations: dice.whole(1, 1000),
+    }
+}
+
+fn control(dice: &mut Dice, solver: &Solver) -> Control {
+    let most = (10.0 / solver.step_s * 0.999).min(1e4) as usize;
+    let step_s = solver.step_s * dice.whole(1, most) as f64;
+    let most = (1e5 / step_s * 0.999).min(1e4) as usize;
+    Control { step_s, episode_s: step_s * dice.whole(1, most) as f64 }
+}
+
+fn random_reset(dice: &mut Dice) -> Reset {
+    let mut parameters = [
+        Parameter::Stiffness,
+        Parameter::Damping,
+        Parameter::Mass,
+        Parameter::Remanence,
+        Parameter::StaticFriction,
+        Parameter::DynamicFriction,
+        Parameter::DriveSpeed,
+    ];
+    let first = dice.whole(0, parameters.len() - 1);
+    parameters.rotate_left(first);
+    let count = dice.whole(0, parameters.len());
+    let vary = parameters.into_iter().take(count).map(|parameter| {
+        let low = dice.decades(1e-3, 1e3);
+        Variation { parameter, low, high: dice.decades(low, 1e3) }
+    });
+    Reset { vary: vary.collect(), random_drive: dice.coin() }
+}

@@ -1,0 +1,106 @@
+"""What happens between rollouts: learning curve, checkpoints, progress bar."""
+
+import sys
+from collections.abc import Callable
+
+import numpy as np
+from checkpoints import Curve
+from stable_baselines3.common.callbacks import BaseCallback
+from tqdm import tqdm
+
+MM_PER_M = 1000.0
+
+
+class LearningCurve(BaseCallback):
+    """Notes the mean crawling speed of the exploring policy over stretches of steps.
+
+    Args:
+        curve: Points are added to it: environment steps, speed [m/s].
+        control_step_s: Duration of a step [s].
+        stretch: Environment steps that share one point.
+    """
+
+    def __init__(self, curve: Curve, control_step_s: float, stretch: int) -> None:
+        super().__init__()
+        self._curve = curve
+        self._control_step_s = control_step_s
+        self._stretch = stretch
+        self._progress_mm = 0.0
+        self._steps = 0
+
+    def _on_step(self) -> bool:
+        rewards = self.locals["rewards"]
+        if self.training_env is not None and hasattr(self.training_env, "get_original_reward"):
+            rewards = self.training_env.get_original_reward()
+        self._progress_mm += float(np.sum(rewards))
+        self._steps += len(rewards)
+        return True
+
+    def _on_rollout_end(self) -> None:
+        if self._steps < self._stretch:
+            return
+        speed_m_s = self._progress_mm / MM_PER_M / self._steps / self._control_step_s
+        self._curve.append((self.num_timesteps, speed_m_s))
+        self.logger.record("crawl/speed_mm_s", MM_PER_M * speed_m_s)
+        self._progress_mm, self._steps = 0.0, 0
+
+
+class Checkpoints(BaseCallback):
+    """Saves between updates, when policy, environments and statistics fit together.
+
+    Args:
+        save: Writes a checkpoint.
+        every: Environment steps between checkpoints.
+        done: Environment steps at the last checkpoint.
+    """
+
+    def __init__(self, save: Callable[[], None], every: int, done: int) -> None:
+        super().__init__()
+        self._save = save
+        self._every = every
+        self._done = done
+
+    def _on_rollout_start(self) -> None:
+        if self.num_timesteps - self._done >= self._every:
+            self._save()
+            self._done = self.num_timesteps
+
+    def _on_step(self) -> bool:
+        return True
+
+
+class Bar(BaseCallback):
+    """Shows a progress bar with the latest speed, on a terminal only.
+
+    Args:
+        title: Text in front of the bar.
+        total: Environment steps of the whole training.
+        curve: Learning curve, for the speed.
+    """
+
+    def __init__(self, title: str, total: int, curve: Curve) -> None:
+        super().__init__()
+        self._title = title
+        self._total = total
+        self._curve = curve
+
+    def _on_training_start(self) -> None:
+        self._bar = tqdm(
+            total=self._total,
+            initial=self.num_timesteps,
+            desc=self._title,
+            unit="step",
+            unit_scale=True,
+            disable=not sys.stderr.isatty(),
+        )
+
+    def _on_rollout_end(self) -> None:
+        self._bar.update(self.num_timesteps - self._bar.n)
+        if self._curve:
+            self._bar.set_postfix_str(f"{MM_PER_M * self._curve[-1][1]:.1f} mm/s", refresh=False)
+
+    def _on_training_end(self) -> None:
+        self._bar.close()
+
+    def _on_step(self) -> bool:
+        return True

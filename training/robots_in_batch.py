@@ -1,0 +1,52 @@
+"""A batch of robots that stay different through every reset."""
+
+from typing import Any
+
+import numpy as np
+from damage import factors_for_each, removed_for_each
+from numpy.typing import NDArray
+from training_settings import TrainingSettings
+
+from magworm_gym import Scene
+from magworm_gym.sb3 import MagWormVecEnv
+
+# The stage belongs to the rig, not to the robot.
+STAGE_PARAMETERS = "drive_"
+
+
+class VariedRobots(MagWormVecEnv):
+    """Environments in which each has its own robot for good.
+
+    A policy trained on many robots at once has to cope with each of them: one batch holds more
+    robots than it could meet one after the other.
+
+    Args:
+        settings: Settings of the training; gives the share of damaged robots and the spread of
+            parameters.
+        scene: Scene of all environments.
+        seed: Seed of the parameters.
+    """
+
+    def __init__(self, settings: TrainingSettings, scene: Scene, seed: int) -> None:
+        super().__init__(settings.num_envs, scene, max_episode_steps=settings.episode_steps)
+        self._robots: dict[str, Any] = {}
+        if settings.removed_share > 0.0:
+            self._robots["removed"] = _removed(settings, scene)
+        if settings.parameter_spread > 0.0:
+            names = self.worms.batch.parameter_names
+            robot_names = tuple(name for name in names if not name.startswith(STAGE_PARAMETERS))
+            self._robots["parameters"] = factors_for_each(
+                robot_names, settings.num_envs, settings.parameter_spread, seed
+            )
+
+    def reset(self) -> NDArray[np.float32]:
+        """Starts new episodes with the same robots. Returns observations (N, O)."""
+        self.set_options(self._robots)
+        return super().reset()
+
+
+def _removed(settings: TrainingSettings, scene: Scene) -> list[tuple[int, ...]]:
+    """Magnets that each environment lacks, those that the scene lacks included."""
+    whole = [magnet for magnet in range(scene.magnets) if magnet not in scene.removed]
+    chosen = removed_for_each(len(whole), settings.num_envs, settings.removed_share)
+    return [(*scene.removed, *(whole[place] for place in places)) for places in chosen]

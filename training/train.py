@@ -1,0 +1,122 @@
+"""Trains drive-magnet controllers: ``python training/train.py crawl --help``."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import command_line
+from atomic_files import write_json, write_text
+from command_line import Parser, UsageError
+from training_settings import (
+    ALGORITHMS,
+    CONFIGS,
+    TrainingSettings,
+    read_saved_settings,
+    read_settings,
+)
+
+from magworm_gym import Scene, load_scene
+
+SETTINGS = "settings.json"
+SCENE = "scene.toml"
+
+
+def main(arguments: list[str]) -> None:
+    """Reads the command line and trains.
+
+    Args:
+        arguments: Command line without the program's name.
+
+    Raises:
+        UsageError: A flag, a setting or a folder is not usable.
+        SceneError: The scene cannot be simulated.
+    """
+    flags = _parser().parse_args(arguments)
+    out = Path(flags.out)
+    settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags)
+    if not flags.resume and (out / SETTINGS).exists():
+        raise UsageError(f"{out} holds a training already: add --resume to go on with it, or choose another --out")
+    summaries = train(settings, out)
+    for summary in summaries:
+        speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
+        print(f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} mm/s while exploring")
+    print(f"policies are in {out}/seed-*/policy")
+
+
+def train(settings: TrainingSettings, out: Path) -> list[dict[str, Any]]:
+    """Trains every seed into a folder, going on where an earlier run stopped.
+
+    Args:
+        settings: Settings of the training.
+        out: Folder of the run; settings and scene are kept in it.
+
+    Returns:
+        One summary for each seed, see ``crawl_training.train_seed``.
+    """
+    from crawl_training import train_seed
+
+    kept_scene = out / SCENE
+    scene = Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
+    if not scene.controlled:
+        raise UsageError(f"scene {settings.scene!r} has no drive that a policy could control")
+    out.mkdir(parents=True, exist_ok=True)
+    write_text(kept_scene, scene.to_toml())
+    write_json(out / SETTINGS, settings.to_json())
+    return [train_seed(settings, scene, seed, out / f"seed-{seed}") for seed in settings.seeds]
+
+
+def _new_settings(flags: argparse.Namespace) -> TrainingSettings:
+    config = Path(flags.config) if flags.config else CONFIGS / f"{flags.algorithm or 'ppo'}.toml"
+    return read_settings(config, _overrides(flags))
+
+
+def _resumed_settings(flags: argparse.Namespace, out: Path) -> TrainingSettings:
+    """The settings that the run was started with; a flag may repeat them, not change them."""
+    settings = read_saved_settings(out / SETTINGS)
+    kept = settings.to_json()
+    for name, value in _overrides(flags).items():
+        if kept[name] != value:
+            raise UsageError(f"{out} was started with {name} {kept[name]!r}; --resume cannot change it to {value!r}")
+    return settings
+
+
+def _overrides(flags: argparse.Namespace) -> dict[str, Any]:
+    names = (
+        "algorithm", "scene", "num_envs", "steps", "seeds", "checkpoint_steps", "removed_share", "parameter_spread"
+    )  # fmt: skip
+    return {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
+
+
+def _parser() -> Parser:
+    parser = Parser(prog="train.py", description="Trains drive-magnet controllers.")
+    tasks = parser.add_subparsers(dest="task", required=True, metavar="TASK", parser_class=Parser)
+    crawl = tasks.add_parser(
+        "crawl",
+        help="crawl towards the head as fast as possible",
+        description="Trains policies that crawl towards the head as fast as possible. Flags override the "
+        "table [run] of the settings file.",
+    )
+    add = crawl.add_argument
+    add("--algorithm", choices=ALGORITHMS, help="learning algorithm (default: ppo)")
+    add("--config", metavar="FILE", help="settings (default: training/configs/ALGORITHM.toml)")
+    add("--scene", help="preset or path of a TOML file (default: paper-3)")
+    add("--num-envs", type=int, metavar="N", help="environments in the batch")
+    add("--steps", type=int, metavar="N", help="environment steps of each seed")
+    add("--seeds", type=int, nargs="+", metavar="SEED", help="one policy for each seed")
+    add("--checkpoint-steps", type=int, metavar="N", help="environment steps between checkpoints")
+    randomise = crawl.add_argument_group("robots that differ, so that a policy survives damage")
+    randomise.add_argument(
+        "--randomise-magnets", dest="removed_share", type=float, metavar="SHARE",
+        help="share of environments whose robot lacks magnets (three are left at least)",
+    )  # fmt: skip
+    randomise.add_argument(
+        "--randomise-parameters", dest="parameter_spread", type=float, metavar="SPREAD",
+        help="stiffness, friction and so on differ by up to this share",
+    )  # fmt: skip
+    add("--out", default="runs/crawl", metavar="FOLDER", help="folder of the run (default: %(default)s)")
+    add("--resume", action="store_true", help="go on from the last complete checkpoint of --out")
+    return parser
+
+
+if __name__ == "__main__":
+    command_line.run("train.py", main)
