@@ -67,6 +67,15 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         self._components = sum(part.size for part in self.batch.action_specification)
 
     @property
+    def _np_random(self) -> np.random.Generator | None:
+        """The batch keeps the generator behind `np_random`, so that states and copies hold it once."""
+        return self._worms._np_random
+
+    @_np_random.setter
+    def _np_random(self, value: np.random.Generator | None) -> None:
+        self._worms._np_random = value
+
+    @property
     def batch(self) -> Batch:
         """The simulation itself, with arrays of leading length 1, to read from."""
         return self._worms.batch
@@ -101,12 +110,8 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         Raises:
             ValueError: The seed or an option is not allowed; nothing is changed then.
         """
-        # One generator for both: an unseeded environment then draws from this one's `np_random`.
-        if seed is None:
-            self._worms.np_random = self.np_random
         observations, infos = self._worms.reset(seed=seed, options=options)
-        if seed is not None:
-            super().reset(seed=int(seed))
+        super().reset(seed=None if seed is None else int(seed))
         return observations[0], info_of(infos, 0)
 
     def step(self, action: ArrayLike) -> tuple[Observations, float, bool, bool, Infos]:

@@ -122,7 +122,7 @@ class MagWormVecEnv(VecEnv):
 
     def get_images(self) -> list[NDArray[np.uint8] | None]:
         """N frames (H, W, 3), black where an environment is not drawn; None without "rgb_array"."""
-        frames = self.worms.render()
+        frames = self.worms.render() if self.render_mode == "rgb_array" else None
         return [None] * self.num_envs if frames is None else list(frames)
 
     def get_attr(self, attr_name: str, indices: VecEnvIndices = None) -> list[Any]:

@@ -273,6 +273,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def __getstate__(self) -> dict[str, Any]:
         """A copy goes on bit for bit, and opens a window of its own."""
+        _ = self.np_random  # made on first use: from now on both have the same
         return {**self.__dict__, "_drawing": None}
 
     def _counted(self) -> dict[str, NDArray[Any]]:

@@ -14,6 +14,7 @@ import torch
 from atomic_files import new_folder
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+from stable_baselines3.common.running_mean_std import RunningMeanStd
 from stable_baselines3.common.vec_env import VecNormalize
 
 from magworm_gym import MagWormVectorEnv
@@ -98,29 +99,37 @@ def restore_checkpoint(path: Path, trainee: Trainee) -> Trainee:
 
 def save_normalisation(path: Path, normalisation: VecNormalize) -> None:
     """Writes running mean, variance and count of observations and returns."""
+    observations, returns = _statistics(normalisation)
     np.savez(
         path,
-        mean=normalisation.obs_rms.mean,
-        var=normalisation.obs_rms.var,
-        count=normalisation.obs_rms.count,
+        mean=observations.mean,
+        var=observations.var,
+        count=observations.count,
         clip=normalisation.clip_obs,
         epsilon=normalisation.epsilon,
-        return_mean=normalisation.ret_rms.mean,
-        return_var=normalisation.ret_rms.var,
-        return_count=normalisation.ret_rms.count,
+        return_mean=returns.mean,
+        return_var=returns.var,
+        return_count=returns.count,
         returns=normalisation.returns,
     )
 
 
 def load_normalisation(path: Path, normalisation: VecNormalize) -> None:
     """Reads what ``save_normalisation`` wrote."""
+    observations, returns = _statistics(normalisation)
     with np.load(path) as kept:
-        observations, returns = normalisation.obs_rms, normalisation.ret_rms
         observations.mean, observations.var = kept["mean"], kept["var"]
         observations.count = float(kept["count"])
         returns.mean, returns.var = kept["return_mean"], kept["return_var"]
         returns.count = float(kept["return_count"])
         normalisation.returns = kept["returns"]
+
+
+def _statistics(normalisation: VecNormalize) -> tuple[RunningMeanStd, RunningMeanStd]:
+    """Statistics of observations and of returns."""
+    observations = normalisation.obs_rms
+    assert isinstance(observations, RunningMeanStd), "observations are one array"
+    return observations, normalisation.ret_rms
 
 
 def _random_states(model: BaseAlgorithm) -> dict[str, Any]:

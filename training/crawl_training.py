@@ -29,6 +29,7 @@ from training_settings import TrainingSettings
 from magworm_gym import Scene
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
+ALGORITHM_CLASSES: dict[str, type[BaseAlgorithm]] = {"ppo": PPO, "sac": SAC}
 POLICY = "policy"
 FINISHED = "finished.json"
 CHECKPOINTS = "checkpoints"
@@ -64,6 +65,7 @@ def train_seed(settings: TrainingSettings, scene: Scene, seed: int, folder: Path
     _learn(settings, scene, trainee, folder)
     _save_policy(folder / POLICY, trainee)
     summary = {
+        "algorithm": settings.algorithm,
         "seed": seed,
         "steps": trainee.model.num_timesteps,
         "resumed_at_step": first_step,
@@ -107,15 +109,14 @@ def _model(settings: TrainingSettings, vec_env: VecEnv) -> BaseAlgorithm:
         network["log_std_init"] = settings.policy["log_std_init"]
     rate = settings.learning_rate
     schedule = LinearSchedule(rate.get("start", 1e-3), rate.get("end", 1e-4), 1.0)
-    kind = {"ppo": PPO, "sac": SAC}[settings.algorithm]
+    options = dict(settings.options)
+    if settings.algorithm == "ppo":
+        # A batch cannot be larger than what one rollout brings.
+        rollout = options.get("n_steps", 32) * settings.num_envs
+        options["batch_size"] = min(options.get("batch_size", rollout), rollout)
     try:
-        return kind(
-            "MlpPolicy",
-            vec_env,
-            learning_rate=schedule,
-            policy_kwargs=network,
-            device="cpu",
-            **settings.options,
+        return ALGORITHM_CLASSES[settings.algorithm](
+            "MlpPolicy", vec_env, learning_rate=schedule, policy_kwargs=network, device="cpu", **options
         )
     except TypeError as error:
         raise UsageError(f"table [algorithm]: {error}") from None
@@ -138,7 +139,7 @@ def _learn(settings: TrainingSettings, scene: Scene, trainee: Trainee, folder: P
         Bar(folder.name, settings.steps, trainee.curve),
     ]
     fresh = model.num_timesteps == 0
-    model.learn(left, callbacks, reset_num_timesteps=fresh)  # type: ignore[arg-type]
+    model.learn(left, callbacks, reset_num_timesteps=fresh)
     save_checkpoint(folder / CHECKPOINTS, trainee)
 
 

@@ -8,17 +8,20 @@ from numpy.typing import NDArray
 FEWEST_MAGNETS = 3
 
 
-def removable_sets(magnets: int) -> list[tuple[int, ...]]:
-    """Every set of body magnets that can be taken out with three left, the empty one first.
+def removable_sets(magnets: int, lacking: tuple[int, ...] = ()) -> list[tuple[int, ...]]:
+    """Every set of body magnets that can be taken out with three left, the smallest first.
 
     Args:
-        magnets: Number of body magnets M.
+        magnets: Number of body magnets M, those that the scene lacks included.
+        lacking: Magnets that the scene itself lacks; they are part of every set.
 
     Returns:
-        Sets of indices counted from 0 at the head, smaller ones first.
+        Sets of indices counted from 0 at the head; the first one is ``lacking``.
     """
-    sizes = range(max(0, magnets - FEWEST_MAGNETS) + 1)
-    return [chosen for size in sizes for chosen in itertools.combinations(range(magnets), size)]
+    left = [magnet for magnet in range(magnets) if magnet not in lacking]
+    sizes = range(max(0, len(left) - FEWEST_MAGNETS) + 1)
+    chosen = [taken for size in sizes for taken in itertools.combinations(left, size)]
+    return [tuple(sorted((*lacking, *taken))) for taken in chosen]
 
 
 def present_after(magnets: int, removed: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -26,33 +29,35 @@ def present_after(magnets: int, removed: tuple[int, ...]) -> NDArray[np.bool_]:
     return ~np.isin(np.arange(magnets), removed)
 
 
-def robot_name(removed: tuple[int, ...]) -> str:
-    """Name of a robot by the magnets it lacks, counted from 0 at the head."""
-    if not removed:
-        return "intact"
-    return "without " + " and ".join(str(magnet) for magnet in removed)
+def robot_name(removed: tuple[int, ...], lacking: tuple[int, ...] = ()) -> str:
+    """Name of a robot by the magnets it lacks beside those of the scene, counted from 0 at the head."""
+    taken = [str(magnet) for magnet in removed if magnet not in lacking]
+    return "without " + " and ".join(taken) if taken else "intact"
 
 
-def removed_for_each(magnets: int, num_envs: int, share: float) -> list[tuple[int, ...]]:
+def removed_for_each(
+    magnets: int, lacking: tuple[int, ...], num_envs: int, share: float
+) -> list[tuple[int, ...]]:
     """Gives a share of the environments a robot with magnets taken out.
 
     All sets come equally often. A robot of three magnets stays whole.
 
     Args:
         magnets: Number of body magnets M.
+        lacking: Magnets that the scene itself lacks.
         num_envs: Number of environments N.
         share: Share of environments with damage, 0 to 1.
 
     Returns:
-        For each environment the magnets that are taken out.
+        For each environment all the magnets that it lacks.
     """
-    damaged = removable_sets(magnets)[1:]
+    whole, *damaged = removable_sets(magnets, lacking)
     count = round(share * num_envs) if damaged else 0
-    # Spread over the batch, so that damaged robots do not share their blocks of lanes alone.
-    order = (np.arange(num_envs) * count) // num_envs
-    turn = np.diff(order, append=count) > 0
-    number = itertools.count()
-    return [damaged[next(number) % len(damaged)] if hit else () for hit in turn]
+    removed = [whole] * num_envs
+    # Spread over the batch: environments next to each other share a block of lanes.
+    for number, place in enumerate(np.linspace(0, num_envs, count, endpoint=False).astype(int)):
+        removed[place] = damaged[number % len(damaged)]
+    return removed
 
 
 def factors_for_each(

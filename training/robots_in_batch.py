@@ -31,7 +31,9 @@ class VariedRobots(MagWormVecEnv):
         super().__init__(settings.num_envs, scene, max_episode_steps=settings.episode_steps)
         self._robots: dict[str, Any] = {}
         if settings.removed_share > 0.0:
-            self._robots["removed"] = _removed(settings, scene)
+            self._robots["removed"] = removed_for_each(
+                scene.magnets, scene.removed, settings.num_envs, settings.removed_share
+            )
         if settings.parameter_spread > 0.0:
             names = self.worms.batch.parameter_names
             robot_names = tuple(name for name in names if not name.startswith(STAGE_PARAMETERS))
@@ -43,10 +45,3 @@ class VariedRobots(MagWormVecEnv):
         """Starts new episodes with the same robots. Returns observations (N, O)."""
         self.set_options(self._robots)
         return super().reset()
-
-
-def _removed(settings: TrainingSettings, scene: Scene) -> list[tuple[int, ...]]:
-    """Magnets that each environment lacks, those that the scene lacks included."""
-    whole = [magnet for magnet in range(scene.magnets) if magnet not in scene.removed]
-    chosen = removed_for_each(len(whole), settings.num_envs, settings.removed_share)
-    return [(*scene.removed, *(whole[place] for place in places)) for places in chosen]

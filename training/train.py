@@ -35,7 +35,9 @@ def main(arguments: list[str]) -> None:
     out = Path(flags.out)
     settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags)
     if not flags.resume and (out / SETTINGS).exists():
-        raise UsageError(f"{out} holds a training already: add --resume to go on with it, or choose another --out")
+        raise UsageError(
+            f"{out} holds a training already: add --resume to go on with it, or choose another --out"
+        )
     summaries = train(settings, out)
     for summary in summaries:
         speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
@@ -56,7 +58,9 @@ def train(settings: TrainingSettings, out: Path) -> list[dict[str, Any]]:
     from crawl_training import train_seed
 
     kept_scene = out / SCENE
-    scene = Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
+    scene = (
+        Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
+    )
     if not scene.controlled:
         raise UsageError(f"scene {settings.scene!r} has no drive that a policy could control")
     out.mkdir(parents=True, exist_ok=True)
@@ -76,14 +80,15 @@ def _resumed_settings(flags: argparse.Namespace, out: Path) -> TrainingSettings:
     kept = settings.to_json()
     for name, value in _overrides(flags).items():
         if kept[name] != value:
-            raise UsageError(f"{out} was started with {name} {kept[name]!r}; --resume cannot change it to {value!r}")
+            raise UsageError(
+                f"{out} was started with {name} {kept[name]!r}; --resume cannot change it to {value!r}"
+            )
     return settings
 
 
 def _overrides(flags: argparse.Namespace) -> dict[str, Any]:
-    names = (
-        "algorithm", "scene", "num_envs", "steps", "seeds", "checkpoint_steps", "removed_share", "parameter_spread"
-    )  # fmt: skip
+    names = ["algorithm", "scene", "num_envs", "steps", "seeds"]
+    names += ["checkpoint_steps", "removed_share", "parameter_spread"]
     return {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
 
 

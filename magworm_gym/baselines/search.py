@@ -124,7 +124,7 @@ def _strategy(settings: SearchSettings, generator: np.random.Generator, *, first
     try:
         import cmaes
     except ImportError as error:
-        raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[training]'.") from error
+        raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[train]'.") from error
     size = 1 + 3 * settings.control_points
     return cmaes.CMA(
         mean=np.zeros(size) if first else generator.uniform(-0.5, 0.5, size),

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.baselines.trial import Trial, crawl_speed_m_s, centre_x_m
+from magworm_gym.baselines.trial import Trial, centre_x_m, crawl_speed_m_s
 
 Floats = NDArray[np.float64]
 

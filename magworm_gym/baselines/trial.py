@@ -96,7 +96,7 @@ def record(
         poses.append(batch.magnet_poses()[environment])
         drives.append(batch.drive_positions()[environment])
     return Recording(
-        time_s=np.arange(steps + 1) * batch.scene.control_step_s,
+        time_s=np.arange(steps + 1, dtype=np.float64) * batch.scene.control_step_s,
         nodes=np.array(nodes),
         magnet_poses=np.array(poses),
         present=batch.magnets_present()[environment],

@@ -1,6 +1,7 @@
 """Anti-aliased drawing on a frame, by supersampling the touched region only."""
 
 import functools
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -23,13 +24,18 @@ def _font(size_px: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
     return ImageFont.load_default(size_px)
 
 
-@functools.lru_cache(maxsize=256)
+@functools.lru_cache(maxsize=512)
 def _writing(text: str, size_px: int, anchor: str) -> tuple[Image.Image, tuple[int, int]]:
     """Coverage of a written line, and where its upper left corner lies from the anchor [pixels]."""
-    left, top, right, bottom = (round(side) for side in _font(size_px).getbbox(text, anchor=anchor))
-    mask = Image.new("L", (max(1, right - left), max(1, bottom - top)))
-    ImageDraw.Draw(mask).text((-left, -top), text, font=_font(size_px), fill=255, anchor=anchor)
-    return mask, (left, top)
+    font = _font(SUPERSAMPLING * size_px)
+    left, top, right, bottom = font.getbbox(text, anchor=anchor)
+    left, top = math.floor(left / SUPERSAMPLING), math.floor(top / SUPERSAMPLING)
+    width = math.ceil(right / SUPERSAMPLING) - left + 1
+    height = math.ceil(bottom / SUPERSAMPLING) - top + 1
+    mask = Image.new("L", (SUPERSAMPLING * width, SUPERSAMPLING * height))
+    origin = (-SUPERSAMPLING * left, -SUPERSAMPLING * top)
+    ImageDraw.Draw(mask).text(origin, text, font=font, fill=255, anchor=anchor)
+    return mask.reduce(SUPERSAMPLING), (left, top)
 
 
 class Region:

@@ -10,7 +10,8 @@ from magworm_gym.baselines.recording import Recording
 from magworm_gym.render.animation import stacked
 from magworm_gym.render.side_view import SideView
 
-MARGIN_BODY_LENGTHS = 0.7
+MARGIN_BODY_LENGTHS = 0.5
+MARGIN_M = 0.008
 
 
 def race_frames(
@@ -35,22 +36,25 @@ def race_frames(
         Frames of all panels, (height of all panels with lines between, width, 3).
     """
     shifted = {title: _from_zero(recording) for title, recording in recordings.items()}
-    left = min(recording.nodes[..., 0].min() for recording in shifted.values())
-    right = max(recording.nodes[..., 0].max() for recording in shifted.values())
-    margin = MARGIN_BODY_LENGTHS * float(np.ptp(next(iter(shifted.values())).nodes[0, :, 0]))
-    views = {
-        title: SideView(
-            geometry[title],
-            width,
-            height,
-            span_m=right - left + 2.0 * margin,
-            centre_m=0.5 * (left + right),
-        )
-        for title in shifted
-    }
+    frame = _framing(list(shifted.values()), width / height)
+    views = {title: SideView(geometry[title], width, height, **frame) for title in shifted}
     instants = len(next(iter(shifted.values())).time_s)
     for instant in range(0, instants, every):
         yield stacked([_panel(views[title], title, shifted[title], instant) for title in shifted])
+
+
+def _framing(recordings: list[Recording], aspect: float) -> dict[str, float]:
+    """Camera that sees every robot and every height of a drive magnet, all the time."""
+    left = min(float(recording.nodes[..., 0].min()) for recording in recordings)
+    right = max(float(recording.nodes[..., 0].max()) for recording in recordings)
+    top = MARGIN_M + max(float(recording.nodes[..., 1].max()) for recording in recordings)
+    depth = MARGIN_M - min(float(recording.drive_positions[..., 1].min()) for recording in recordings)
+    margin = MARGIN_BODY_LENGTHS * float(np.ptp(recordings[0].nodes[0, :, 0]))
+    return {
+        "span_m": max(right - left + 2.0 * margin, (top + depth) * aspect),
+        "centre_m": 0.5 * (left + right),
+        "horizon": top / (top + depth),
+    }
 
 
 def _from_zero(recording: Recording) -> Recording:

@@ -1,5 +1,6 @@
 """The side view of one environment: robot, drive magnets, ground and trail."""
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -132,7 +133,7 @@ class SideView:
 
     @property
     def _text_px(self) -> float:
-        return float(np.clip(0.04 * self.height, 11.0, 20.0))
+        return float(np.clip(0.04 * self.height, 13.0, 20.0))
 
     def _following(self, nodes: Floats) -> Camera:
         if self._camera is None:
@@ -209,7 +210,7 @@ def _draw_trail(region: Region, line: Floats) -> None:
     if len(line) < 2:
         return
     cuts = np.unique(np.linspace(0, len(line) - 1, TRAIL_PIECES + 1).astype(int))
-    for start, stop in zip(cuts[:-1], cuts[1:], strict=True):
+    for start, stop in itertools.pairwise(cuts.tolist()):
         share = stop / (len(line) - 1)
         region.line(line[start : stop + 1], mix(TRAIL_OLD, TRAIL_NEW, share), 1.0 + share)
 

@@ -1,5 +1,31 @@
-//! Python bindings.
+//! Python bindings: thin, no physics. Long work releases the interpreter's lock.
+
+mod arrays;
+mod batch;
+mod errors;
+mod magnet;
+mod scene;
+
 use pyo3::prelude::*;
 
+/// The compiled simulator.
 #[pymodule]
-mod _magworm {}
+mod _magworm {
+    #[pymodule_export]
+    use crate::batch::{_rebuild_batch, Batch, Specification};
+    #[pymodule_export]
+    use crate::errors::SceneError;
+    #[pymodule_export]
+    use crate::magnet::{cuboid_field, cuboid_wrench};
+    #[pymodule_export]
+    use crate::scene::Scene;
+
+    use pyo3::prelude::*;
+    use pyo3::types::PyTuple;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("PRESETS", PyTuple::new(module.py(), magworm::scene::PRESETS)?)
+    }
+}

@@ -70,6 +70,7 @@ fn refuses_bodies_that_cannot_be_built() {
     ] {
         refuses("example", path, value, &format!("{path} {rest}"));
     }
+    assert!(edited("example", &[("magnet.length_m", Some("0.014"))]).is_ok());
     for (removed, place, index) in [("[0, 3]", 1, 3), ("[1, 1]", 1, 1)] {
         let sentence =
             format!("body.removed[{place}] is {index}; allowed: 0 to 2, each at most once");
@@ -110,6 +111,12 @@ fn refuses_magnets_that_do_not_fit_a_rod() {
     assert_eq!(
         edited("cantilever", &[("magnet", Some(&thick)), ("body.magnets", Some(tip))]).unwrap_err(),
         "magnet.height_m is 0.005 m; allowed: at most body.thickness_m = 0.004 m"
+    );
+    let full = magnet.replace("0.002", "0.004");
+    assert_eq!(
+        edited("cantilever", &[("magnet", Some(&full)), ("body.magnets", Some(tip))]).unwrap_err(),
+        "magnet.height_m is 0.004 m; allowed: less than the body's thickness where the body ends \
+         with a magnet as wide"
     );
     assert_eq!(
         edited("cantilever", &[("body.magnets", Some(tip))]).unwrap_err(),

@@ -13,7 +13,7 @@ use crate::model::{GroundLaw, Model};
 use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
-const SETTLED: f64 = 1e-8;
+const SETTLED: f64 = 1e-5;
 /// Passes after which a point that sticks stays so for the step. With μ_d < μ_s the law is not monotone
 /// and two points may take turns without end.
 const PATIENCE: usize = 10;

@@ -17,7 +17,7 @@ pub use kinematics::update as kinematics;
 pub use stretch::assemble as stretch;
 
 use crate::lanes::banded::Band;
-use crate::lanes::{Isa, Real};
+use crate::lanes::Isa;
 use crate::model::{Model, Stencil};
 use crate::state::Block;
 

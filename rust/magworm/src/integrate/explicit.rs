@@ -6,7 +6,7 @@
 
 use super::springs;
 use crate::elastic::Scheme;
-use crate::lanes::{Isa, Real};
+use crate::lanes::Isa;
 use crate::model::{Anchor, Model, Tie};
 use crate::state::Block;
 

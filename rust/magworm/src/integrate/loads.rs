@@ -1,7 +1,7 @@
 //! Impulses of gravity and magnets.
 
 use crate::drive::DriveModel;
-use crate::lanes::{Isa, Real};
+use crate::lanes::Isa;
 use crate::model::{Magnetics, Model, PairModel};
 use crate::state::Block;
 

@@ -8,7 +8,7 @@ mod implicit;
 mod loads;
 
 use crate::elastic::{self, Scheme};
-use crate::lanes::{Isa, Real};
+use crate::lanes::Isa;
 use crate::model::Model;
 use crate::scene::{Integrator, Parameter};
 use crate::state::Block;

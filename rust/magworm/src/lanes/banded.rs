@@ -3,7 +3,7 @@
 //! A matrix is stored by rows of its lower half: row r holds columns r − h … r (h the half-bandwidth),
 //! entries left of the first non-zero column of a row are never touched.
 
-use super::{Isa, Real};
+use super::Isa;
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]

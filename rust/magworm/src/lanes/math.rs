@@ -22,15 +22,18 @@ mod tests;
 const LN_2_HIGH: f64 = 0.693_147_180_559_890_3;
 /// ln 2 − [`LN_2_HIGH`].
 const LN_2_LOW: f64 = 5.497_923_018_708_371e-14;
-/// π/4 with 50 bits, so that its product with 0..=4 is exact.
-const EIGHTH_TURN_HIGH: f64 = 0.785_398_163_397_448_3;
+/// π/4; its last three bits are 0, so that its product with 0..=4 is exact.
+const EIGHTH_TURN_HIGH: f64 = std::f64::consts::FRAC_PI_4;
 /// π/4 − [`EIGHTH_TURN_HIGH`].
 const EIGHTH_TURN_LOW: f64 = 3.061_616_997_868_383e-17;
 /// tan(π/8): above it the arctangent is reduced by π/4.
 const TAN_PI_8: f64 = std::f64::consts::SQRT_2 - 1.0;
 /// π/2 in three parts of 33, 33 and 53 bits (Cody and Waite).
-const HALF_PI: [f64; 3] =
-    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
+const HALF_PI: [f64; 3] = [
+    1.570_796_326_734_125_6,
+    6.077_100_506_303_966e-11,
+    2.022_266_248_795_950_6e-21,
+];
 /// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
@@ -65,14 +68,14 @@ const SIN: [f64; 6] = [
     -0.000_198_412_698_298_077_78,
     2.755_731_369_191_571e-6,
     -2.505_075_811_572_423e-8,
-    1.589_679_575_150_597_1e-10,
+    1.589_679_571_505_971_2e-10,
 ];
 /// (cos r − 1 + r²/2) / r⁴ in r², |r| ≤ π/4.
 const COS: [f64; 6] = [
     0.041_666_666_666_666_6,
     -0.001_388_888_888_887_412_5,
     2.480_158_728_948_234e-5,
-    -2.755_731_435_237_226_6e-7,
+    -2.755_731_435_237_231_6e-7,
     2.087_572_327_815_26e-9,
     -1.135_964_804_336_546_1e-11,
 ];

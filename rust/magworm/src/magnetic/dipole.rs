@@ -25,7 +25,9 @@ impl PlanarDipole {
     /// The dipoles of two cuboids.
     pub fn new(drive: Cuboid, body: Cuboid) -> Self {
         let volumes = drive.volume_m3() * body.volume_m3();
-        PlanarDipole { scale: volumes / (4.0 * std::f64::consts::PI * MU_0) }
+        PlanarDipole {
+            scale: volumes / (4.0 * std::f64::consts::PI * MU_0),
+        }
     }
 
     /// Force (F_x, F_y) [N] and torque T_z about the body's centre [N·m] on the body.
@@ -78,4 +80,23 @@ pub fn dipole_field_t(moment_t_m3: Vector3<f64>, position_m: Vector3<f64>) -> Ve
     let r = position_m.norm();
     let e = position_m / r;
     (e * (3.0 * moment_t_m3.dot(&e)) - moment_t_m3) / (4.0 * std::f64::consts::PI * r.powi(3))
+}
+
+/// Wrench of one dipole on another (Yung, Landecker & Villani 1998), with the moments `drive` and `body`
+/// [T·m³] (remanence times volume), `position_m` from the drive to the body.
+pub fn dipole_wrench(
+    drive: Vector3<f64>,
+    body: Vector3<f64>,
+    position_m: Vector3<f64>,
+) -> super::Wrench {
+    let r = position_m.norm();
+    let e = position_m / r;
+    let (along_drive, along_body) = (drive.dot(&e), body.dot(&e));
+    let bracket = drive * along_body + body * along_drive + e * drive.dot(&body)
+        - e * (5.0 * along_drive * along_body);
+    let scale = 3.0 / (4.0 * std::f64::consts::PI * super::MU_0 * r.powi(4));
+    super::Wrench {
+        force_n: bracket * scale,
+        torque_n_m: body.cross(&dipole_field_t(drive, position_m)) / super::MU_0,
+    }
 }

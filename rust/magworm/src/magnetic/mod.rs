@@ -29,7 +29,7 @@ mod uniform;
 mod wrench;
 
 pub use cuboid::{field, field_t, unit_field, unit_field_outside};
-pub use dipole::{PlanarDipole, dipole_field_t};
+pub use dipole::{PlanarDipole, dipole_field_t, dipole_wrench};
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
 pub use uniform::UniformField;

@@ -12,8 +12,19 @@ use crate::lanes::math::{atan2, ln_ratio};
 /// Integration along z is exact, since faces of both magnets stay parallel to z; only the
 /// integral along the body's length is left to Gauss–Legendre quadrature.
 ///
-/// Cost of one [`wrench`](Self::wrench) of order n, per lane: 16 n square roots, 2 n divisions,
-/// about 780 n additions and multiplications, including 8 n logarithms and 4 n arctangents.
+/// Cost of one [`wrench`](Self::wrench) of order n, per lane: 16 n square roots, 12 n divisions,
+/// about 670 n additions and multiplications; among them 8 n logarithms and 4 n arctangents.
+/// There are no points along z, so that wide magnets cost neither time nor
+/// accuracy. Drive 40 × 5 × 40 mm, body 10 × 3 × 10 mm, centres 22 mm apart in height, over a
+/// sweep of poses, relative to the sweep's largest force and torque:
+///
+/// | order | error of the force | error of the torque |
+/// |---|---|---|
+/// | 1 | 4e-2 | 7e-2 |
+/// | 2 | 8e-4 | 2e-3 |
+/// | 3 | 2e-5 | 3e-5 |
+/// | 4 | 3e-7 | 5e-7 |
+/// | 5 | 5e-9 | 9e-9 |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarPair {
     /// Half of the drive's length and height [m].

@@ -19,7 +19,10 @@ impl GaussLegendre {
     /// # Panics
     /// If `order` is not in 1..=[`MAX_ORDER`].
     pub fn new(order: usize) -> Self {
-        assert!((1..=MAX_ORDER).contains(&order), "quadrature order {order} is not in 1..={MAX_ORDER}");
+        assert!(
+            (1..=MAX_ORDER).contains(&order),
+            "quadrature order {order} is not in 1..={MAX_ORDER}"
+        );
         let (mut nodes, mut weights) = ([0.0; MAX_ORDER], [0.0; MAX_ORDER]);
         for i in 0..order.div_ceil(2) {
             let mirror = order - 1 - i;
@@ -29,7 +32,11 @@ impl GaussLegendre {
             (nodes[i], nodes[mirror]) = (-x, x);
             (weights[i], weights[mirror]) = (weight, weight);
         }
-        GaussLegendre { order, nodes, weights }
+        GaussLegendre {
+            order,
+            nodes,
+            weights,
+        }
     }
 
     /// Number of nodes.
@@ -75,7 +82,10 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, x);
     for k in 2..=n {
         let k = k as f64;
-        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+        (before, value) = (
+            value,
+            ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
+        );
     }
     (value, n as f64 * (before - x * value) / (1.0 - x * x))
 }
@@ -89,10 +99,21 @@ mod tests {
         for order in 1..=MAX_ORDER {
             let rule = GaussLegendre::new(order);
             for degree in 0..2 * order as i32 {
-                let sum: f64 =
-                    rule.nodes().iter().zip(rule.weights()).map(|(x, w)| w * x.powi(degree)).sum();
-                let exact = if degree % 2 == 0 { 2.0 / (f64::from(degree) + 1.0) } else { 0.0 };
-                assert!((sum - exact).abs() < 4e-15, "order {order}, degree {degree}: {sum}");
+                let sum: f64 = rule
+                    .nodes()
+                    .iter()
+                    .zip(rule.weights())
+                    .map(|(x, w)| w * x.powi(degree))
+                    .sum();
+                let exact = if degree % 2 == 0 {
+                    2.0 / (f64::from(degree) + 1.0)
+                } else {
+                    0.0
+                };
+                assert!(
+                    (sum - exact).abs() < 4e-15,
+                    "order {order}, degree {degree}: {sum}"
+                );
             }
         }
     }

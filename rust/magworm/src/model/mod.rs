@@ -1,6 +1,7 @@
 //! `compile(Scene) → Model`: everything that does not change in time, shared by all environments.
 
 mod coordinates;
+mod explain;
 mod inertia;
 mod magnetics;
 mod mesh;

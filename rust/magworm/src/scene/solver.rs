@@ -120,3 +120,18 @@ pub enum Parameter {
     /// Velocity of a drive in constant motion.
     DriveSpeed,
 }
+
+impl Parameter {
+    /// The name used in scenes and from Python.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stiffness => "stiffness",
+            Self::Damping => "damping",
+            Self::Mass => "mass",
+            Self::Remanence => "remanence",
+            Self::StaticFriction => "static_friction",
+            Self::DynamicFriction => "dynamic_friction",
+            Self::DriveSpeed => "drive_speed",
+        }
+    }
+}

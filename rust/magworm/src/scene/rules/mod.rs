@@ -2,6 +2,7 @@
 
 mod body;
 mod drive;
+mod rod;
 mod time;
 
 use super::Scene;

@@ -1,0 +1,341 @@
+//! `Batch` for Python.
+
+use crate::arrays::read;
+use crate::errors::value_error;
+use crate::scene::Scene;
+use magworm::model::Model;
+use magworm::observe;
+use magworm::reset::StartPose;
+use magworm::scene::Parameter;
+use magworm::state::{self, LaneChoice, Status, StepOutput, View};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+
+/// One named slice of an observation or action row.
+#[pyclass(module = "magworm_gym._magworm", frozen, get_all)]
+#[derive(Clone)]
+pub struct Specification {
+    name: &'static str,
+    unit: String,
+    size: usize,
+    low: f64,
+    high: f64,
+    description: &'static str,
+}
+
+impl From<observe::Specification> for Specification {
+    fn from(s: observe::Specification) -> Self {
+        let observe::Specification { name, unit, size, low, high, description } = s;
+        Self { name, unit, size, low, high, description }
+    }
+}
+
+#[pymethods]
+impl Specification {
+    fn __repr__(&self) -> String {
+        format!("Specification({}: {} × {}, {})", self.name, self.size, self.unit, self.description)
+    }
+}
+
+/// N environments of one scene, advanced together.
+#[pyclass(module = "magworm_gym._magworm")]
+pub struct Batch {
+    batch: state::Batch,
+    threads: Option<usize>,
+}
+
+type Arrays1<'py, T> = Bound<'py, PyArray1<T>>;
+type StepArrays<'py> = (Bound<'py, PyArray2<f32>>, Arrays1<'py, f64>, Arrays1<'py, u8>);
+
+#[pymethods]
+impl Batch {
+    #[new]
+    #[pyo3(signature = (scene, num_envs, *, lanes = "wide", threads = None))]
+    fn new(scene: &Scene, num_envs: usize, lanes: &str, threads: Option<usize>) -> PyResult<Self> {
+        let lanes = match lanes {
+            "wide" => LaneChoice::Wide,
+            "scalar" => LaneChoice::Scalar,
+            other => return Err(value_error(format!("lanes is {other:?}; allowed: \"wide\", \"scalar\""))),
+        };
+        if num_envs == 0 || num_envs > 1 << 24 {
+            return Err(value_error(format!("num_envs is {num_envs}; allowed: 1 to {}", 1 << 24)));
+        }
+        if threads == Some(0) || threads.is_some_and(|t| t > 4096) {
+            return Err(value_error("threads is out of range; allowed: None, or 1 to 4096"));
+        }
+        Ok(Self { batch: state::Batch::new(scene.model.clone(), num_envs, lanes, threads), threads })
+    }
+
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene { model: self.batch.model().clone() }
+    }
+
+    #[getter]
+    fn num_envs(&self) -> usize {
+        self.batch.count()
+    }
+
+    #[getter]
+    fn observation_specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        specifications(py, observe::observation(self.batch.model()))
+    }
+
+    #[getter]
+    fn action_specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        specifications(py, observe::action())
+    }
+
+    #[getter]
+    fn parameter_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let names: Vec<&str> = Model::PARAMETERS.iter().map(|p| p.name()).collect();
+        Ok(pyo3::types::PyTuple::new(py, names)?.into_any())
+    }
+
+    fn set_parameter(&mut self, name: &str, factors: PyReadonlyArrayDyn<'_, f64>) -> PyResult<()> {
+        let column = parameter_column(name)?;
+        let values = read("factors", &factors, &[self.batch.count()])?;
+        let drive_speed = name == Parameter::DriveSpeed.name();
+        if let Some((k, bad)) = values.iter().enumerate().find(|(_, f)| !factor_allowed(**f, drive_speed)) {
+            let allowed = if drive_speed { "-1e3 to 1e3" } else { "0 to 1e3" };
+            let message = format!("factor of {name} in environment {k} is {bad}; allowed: {allowed}");
+            return Err(value_error(message));
+        }
+        let rows = self.batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
+        rows.zip(values).for_each(|(row, factor)| row[column] = factor);
+        Ok(())
+    }
+
+    fn parameter<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Arrays1<'py, f64>> {
+        let column = parameter_column(name)?;
+        let rows = self.batch.factors().chunks(Model::PARAMETERS.len());
+        Ok(rows.map(|row| row[column]).collect::<Vec<_>>().into_pyarray(py))
+    }
+
+    fn set_magnets_present(&mut self, present: PyReadonlyArrayDyn<'_, bool>) -> PyResult<()> {
+        let shape = [self.batch.count(), self.batch.model().magnets()];
+        let values = read("present", &present, &shape)?;
+        self.batch.present_mut().copy_from_slice(&values);
+        Ok(())
+    }
+
+    fn magnets_present<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
+        let shape = [self.batch.count(), self.batch.model().magnets()];
+        PyArray1::from_slice(py, self.batch.present()).reshape(shape)
+    }
+
+    #[pyo3(signature = (mask, seeds, episodes, start = None))]
+    fn reset(
+        &mut self,
+        mask: PyReadonlyArrayDyn<'_, bool>,
+        seeds: PyReadonlyArrayDyn<'_, u64>,
+        episodes: PyReadonlyArrayDyn<'_, u64>,
+        start: Option<PyReadonlyArrayDyn<'_, f64>>,
+    ) -> PyResult<()> {
+        let count = self.batch.count();
+        let mask = read("mask", &mask, &[count])?;
+        let seeds = read("seeds", &seeds, &[count])?;
+        let episodes = read("episodes", &episodes, &[count])?;
+        let start = start.map(|array| read("start", &array, &[count, 3])).transpose()?;
+        check_start(start.as_deref(), &mask)?;
+        for environment in (0..count).filter(|&k| mask[k]) {
+            let pose = start.as_deref().map(|rows| {
+                let row = &rows[3 * environment..][..3];
+                StartPose { x_m: row[0], height_m: row[1], angle_rad: row[2] }
+            });
+            self.batch.reset(environment, seeds[environment], episodes[environment], pose);
+        }
+        Ok(())
+    }
+
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        actions: PyReadonlyArrayDyn<'py, f64>,
+    ) -> PyResult<StepArrays<'py>> {
+        let count = self.batch.count();
+        let actions = read("actions", &actions, &[count, observe::ACTION_SIZE])?;
+        if let Some(k) = actions.iter().position(|a| !a.is_finite()) {
+            let (environment, component) = (k / observe::ACTION_SIZE, k % observe::ACTION_SIZE);
+            return Err(value_error(format!(
+                "action of environment {environment}, component {component}, is {}; allowed: finite numbers, clipped to [-1, 1]",
+                actions[k]
+            )));
+        }
+        let width = observe::size(self.batch.model());
+        let mut observation = vec![0.0f32; count * width];
+        let mut progress_m = vec![0.0; count];
+        let mut status = vec![0u8; count];
+        let batch = &mut self.batch;
+        py.detach(|| {
+            let output = StepOutput {
+                observation: &mut observation,
+                progress_m: &mut progress_m,
+                status: &mut status,
+            };
+            batch.step(&actions, output);
+        });
+        let observation = observation.into_pyarray(py).reshape([count, width])?;
+        Ok((observation, progress_m.into_pyarray(py), status.into_pyarray(py)))
+    }
+
+    fn advance(&mut self, py: Python<'_>, duration_s: f64) -> PyResult<()> {
+        let steps = duration_s / self.batch.model().step_s;
+        let whole = steps.round();
+        if !(whole >= 0.0 && whole <= f64::from(u32::MAX)) || (steps - whole).abs() > 1e-6 {
+            let step_s = self.batch.model().step_s;
+            return Err(value_error(format!(
+                "duration_s is {duration_s} s; allowed: a whole number of solver steps of {step_s} s"
+            )));
+        }
+        let batch = &mut self.batch;
+        py.detach(|| batch.advance(whole as u32));
+        Ok(())
+    }
+
+    fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let shape = [self.batch.count(), observe::size(self.batch.model())];
+        let mut rows = vec![0.0f32; shape[0] * shape[1]];
+        self.batch.observe(&mut rows);
+        rows.into_pyarray(py).reshape(shape)
+    }
+
+    fn status<'py>(&self, py: Python<'py>) -> Arrays1<'py, u8> {
+        let codes: Vec<u8> = (0..self.batch.count()).map(|k| self.batch.status(k) as u8).collect();
+        codes.into_pyarray(py)
+    }
+
+    #[staticmethod]
+    fn status_text(code: u8) -> PyResult<&'static str> {
+        let status = Status::from_code(code);
+        status.map(Status::text).ok_or_else(|| value_error(format!("status code {code} is unknown")))
+    }
+
+    fn time_s<'py>(&self, py: Python<'py>) -> Arrays1<'py, f64> {
+        self.gather(|view, out| out.push(view.time_s())).into_pyarray(py)
+    }
+
+    fn magnet_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        self.per_magnet(py, |view, magnet| view.magnet_pose(magnet))
+    }
+
+    fn magnet_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        self.per_magnet(py, |view, magnet| view.magnet_velocity(magnet))
+    }
+
+    fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let nodes = self.batch.model().nodes();
+        let rows = self.gather(|view, out| (0..nodes).for_each(|n| out.extend(view.node_m(n))));
+        rows.into_pyarray(py).reshape([self.batch.count(), nodes, 2])
+    }
+
+    fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let drive = self.batch.model().program.drive.as_ref();
+        let magnets = drive.map_or(0, |d| d.layout.offset_m.len());
+        let rows = self.gather(|view, out| {
+            (0..magnets).filter_map(|k| view.drive_m(k)).for_each(|place| out.extend(place));
+        });
+        rows.into_pyarray(py).reshape([self.batch.count(), magnets, 2])
+    }
+
+    fn drive_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = self.gather(|view, out| out.extend(view.drive_m_s()));
+        rows.into_pyarray(py).reshape([self.batch.count(), 2])
+    }
+
+    fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let counters = self.batch.counters();
+        let dict = PyDict::new(py);
+        dict.set_item("steps", counters.steps)?;
+        dict.set_item("solves", counters.solves)?;
+        dict.set_item("factorisations", counters.factorisations)?;
+        dict.set_item("wrenches", counters.wrenches)?;
+        Ok(dict)
+    }
+
+    fn get_state<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.batch.snapshot())
+    }
+
+    fn set_state(&mut self, state: &[u8]) -> PyResult<()> {
+        self.batch.restore(state).map_err(value_error)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let module = py.import("magworm_gym._magworm")?;
+        let rebuild = module.getattr("_rebuild_batch")?;
+        let lanes = match self.batch.lanes() {
+            LaneChoice::Wide => "wide",
+            LaneChoice::Scalar => "scalar",
+        };
+        let arguments =
+            (self.scene().into_pyobject(py)?, self.batch.count(), lanes, self.threads, self.get_state(py));
+        (rebuild, arguments).into_pyobject(py).map(Bound::into_any)
+    }
+}
+
+impl Batch {
+    fn gather<T>(&self, look: impl Fn(View<'_>, &mut Vec<T>)) -> Vec<T> {
+        let mut out = Vec::new();
+        (0..self.batch.count()).for_each(|k| self.batch.view(k, |view| look(view, &mut out)));
+        out
+    }
+
+    fn per_magnet<'py>(
+        &self,
+        py: Python<'py>,
+        look: impl Fn(&View<'_>, usize) -> [f64; 3],
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let magnets = self.batch.model().magnets();
+        let rows = self.gather(|view, out| (0..magnets).for_each(|j| out.extend(look(&view, j))));
+        rows.into_pyarray(py).reshape([self.batch.count(), magnets, 3])
+    }
+}
+
+/// Makes a batch again from what `Batch.__reduce__` kept.
+#[pyfunction]
+pub fn _rebuild_batch(
+    scene: &Scene,
+    num_envs: usize,
+    lanes: &str,
+    threads: Option<usize>,
+    state: &[u8],
+) -> PyResult<Batch> {
+    let mut batch = Batch::new(scene, num_envs, lanes, threads)?;
+    batch.set_state(state)?;
+    Ok(batch)
+}
+
+fn specifications(py: Python<'_>, slices: Vec<observe::Specification>) -> PyResult<Bound<'_, PyAny>> {
+    let slices = slices.into_iter().map(|s| Py::new(py, Specification::from(s)));
+    let slices = slices.collect::<PyResult<Vec<_>>>()?;
+    Ok(pyo3::types::PyTuple::new(py, slices)?.into_any())
+}
+
+fn parameter_column(name: &str) -> PyResult<usize> {
+    Model::PARAMETERS.iter().position(|p| p.name() == name).ok_or_else(|| {
+        let names: Vec<&str> = Model::PARAMETERS.iter().map(|p| p.name()).collect();
+        value_error(format!("parameter {name:?} is unknown; allowed: {}", names.join(", ")))
+    })
+}
+
+fn factor_allowed(factor: f64, signed: bool) -> bool {
+    factor.abs() <= 1e3 && (signed || factor >= 0.0)
+}
+
+/// Start poses of the masked environments must be finite and near.
+fn check_start(start: Option<&[f64]>, mask: &[bool]) -> PyResult<()> {
+    let rows = start.unwrap_or_default().chunks(3).enumerate().filter(|(k, _)| mask[*k]);
+    for (environment, row) in rows {
+        let limits = [("x", 1e3, "m"), ("height", 10.0, "m"), ("angle", 1e3, "rad")];
+        for (value, (name, most, unit)) in row.iter().zip(limits) {
+            if !(value.abs() <= most) {
+                return Err(value_error(format!(
+                    "start {name} of environment {environment} is {value} {unit}; allowed: -{most} to {most} {unit}"
+                )));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,74 @@
+//! A compiled scene in words: which terms are in, which were left out, and why.
+
+use super::{Model, PairModel};
+use crate::scene::Integrator;
+use std::fmt::Write;
+
+impl Model {
+    /// Terms compiled into the model, and those left out with the reason, a line each.
+    pub fn explain(&self) -> String {
+        let mut text = String::new();
+        let mut line = |name: &str, words: String| {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{name:<14}{words}");
+        };
+        let scheme = match self.scene.solver.integrator {
+            Integrator::Implicit => "implicit Euler, magnets eliminated",
+            Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
+        };
+        line("integrator", format!("{scheme}, step {} s", self.step_s));
+        let (unknowns, half) = (self.coordinates.count, self.band.half_bandwidth());
+        line("unknowns", format!("{unknowns}, half-bandwidth {half}"));
+        line("stretching", format!("{} elements", self.stretch.len()));
+        line("bending", format!("{} nodes", self.bend.len()));
+        line("gravity", self.explain_gravity());
+        line("ground", self.explain_ground());
+        line("drive", self.explain_drive());
+        line("uniform field", self.explain_field());
+        text
+    }
+
+    fn explain_gravity(&self) -> String {
+        match self.program.gravity_m_s2 {
+            Some([x, y]) => format!("({x:.4}, {y:.4}) m/s²"),
+            None => "left out: gravity_m_s2 is 0".to_string(),
+        }
+    }
+
+    fn explain_ground(&self) -> String {
+        match &self.program.ground {
+            Some(law) => format!(
+                "{} contact points, static friction {}, dynamic {}",
+                self.contacts.len(),
+                law.static_friction,
+                law.dynamic_friction
+            ),
+            None => "left out: the scene has no [ground]".to_string(),
+        }
+    }
+
+    fn explain_drive(&self) -> String {
+        let Some(drive) = &self.program.drive else {
+            return "left out: the scene has no [drive]".to_string();
+        };
+        let Some(magnetics) = &self.program.magnetics else {
+            return "wrench left out: the body has no magnets".to_string();
+        };
+        let pair = match &magnetics.pair {
+            PairModel::Cuboid(_) => {
+                format!("cuboids, quadrature order {}", self.scene.solver.quadrature_order)
+            }
+            PairModel::Dipole(_) => "dipoles".to_string(),
+        };
+        let pairs = drive.layout.offset_m.len() * self.magnets();
+        format!("{pairs} wrenches a step, {pair}")
+    }
+
+    fn explain_field(&self) -> String {
+        match (&self.program.uniform_field, &self.scene.field) {
+            (Some(field), _) => format!("({}, {}) T", field.field_t[0], field.field_t[1]),
+            (None, Some(_)) => "left out: the body has no magnets".to_string(),
+            (None, None) => "left out: the scene has no [field]".to_string(),
+        }
+    }
+}

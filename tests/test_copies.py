@@ -1,0 +1,158 @@
+"""States, copies, other processes."""
+
+import multiprocessing
+import pickle
+from collections.abc import Callable
+from copy import deepcopy
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import data_equivalence
+
+from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv
+
+OPTIONS = {"removed": [[0], [], [1]], "parameters": {"mass": [1.0, 1.1, 1.2]}, "start": {"x_m": 0.01}}
+PATIENCE_S = 60
+
+
+def crawl(**kwargs: Any) -> MagWormVectorEnv:
+    return MagWormVectorEnv(3, **{"max_episode_steps": 5, "threads": 1, **kwargs})
+
+
+def play(env: MagWormVectorEnv, steps: int, seed: int) -> list[Any]:
+    rows = np.random.default_rng(seed).uniform(-1, 1, (steps, 3, 3))
+    return [env.step(actions) for actions in rows]
+
+
+def started(**kwargs: Any) -> MagWormVectorEnv:
+    env = crawl(**kwargs)
+    env.reset(seed=[5, 6, 7], options=OPTIONS)
+    env.reset(options={**OPTIONS, "reset_mask": np.array([False, True, False])})
+    play(env, 5, seed=0)
+    return env
+
+
+def by_state(env: MagWormVectorEnv) -> MagWormVectorEnv:
+    other = crawl(autoreset_mode=env.metadata["autoreset_mode"])
+    other.set_state(env.get_state())
+    return other
+
+
+def by_pickle(env: MagWormVectorEnv) -> MagWormVectorEnv:
+    copy: MagWormVectorEnv = pickle.loads(pickle.dumps(env))
+    return copy
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+@pytest.mark.parametrize("copied", [by_state, by_pickle, deepcopy])
+def test_a_copy_goes_on_bit_for_bit(copied: Callable[[Any], Any], mode: str) -> None:
+    env = started(autoreset_mode=mode)
+    copy = copied(env)
+    assert data_equivalence(play(env, 12, seed=1), play(copy, 12, seed=1), exact=True)
+    assert data_equivalence(env.reset(), copy.reset(), exact=True)
+
+
+@pytest.mark.parametrize("copied", [by_state, by_pickle, deepcopy])
+def test_a_copy_before_the_first_reset(copied: Callable[[Any], Any]) -> None:
+    env = crawl()
+    copy = copied(env)
+    assert data_equivalence(env.reset(), copy.reset(), exact=True)
+
+
+def test_going_back_to_a_state() -> None:
+    env = started()
+    state = env.get_state()
+    first = play(env, 9, seed=2)
+    env.set_state(state)
+    assert env.get_state() == state
+    assert data_equivalence(first, play(env, 9, seed=2), exact=True)
+
+
+def test_a_copied_specification() -> None:
+    env = gymnasium.make_vec(CRAWL_ID, num_envs=2)
+    assert pickle.loads(pickle.dumps(env)).spec == env.spec
+
+
+@pytest.mark.parametrize("seed", [None, 4])
+def test_the_single_environment_is_copied(seed: int | None) -> None:
+    env = MagWormEnv(max_episode_steps=4)
+    fresh = pickle.loads(pickle.dumps(env))
+    assert data_equivalence(env.reset(seed=seed), fresh.reset(seed=seed), exact=True)
+    copies = [pickle.loads(pickle.dumps(env)), deepcopy(env), MagWormEnv(max_episode_steps=4)]
+    copies[2].set_state(env.get_state())
+    action = np.array([0.3, 0.5, 1.0])
+    expected = [*(env.step(action) for _ in range(4)), env.reset()]
+    for copy in copies:
+        assert data_equivalence(expected, [*(copy.step(action) for _ in range(4)), copy.reset()], exact=True)
+
+
+def bad_states() -> dict[str, Any]:
+    good = started().get_state()
+    other_size = MagWormVectorEnv(2, max_episode_steps=5, threads=1)
+    other_scene = MagWormVectorEnv(3, "paper-4", threads=1)
+    for env in (other_size, other_scene):
+        env.reset(seed=0)
+    return {
+        "empty": b"",
+        "noise": b"worm" * 20,
+        "short": good[: len(good) // 2],
+        "text": "state",
+        "size": other_size.get_state(),
+        "scene": other_scene.get_state(),
+        "mode": started(autoreset_mode="SameStep").get_state(),
+    }
+
+
+@pytest.mark.parametrize("kind", ["empty", "noise", "short", "text", "size", "scene", "mode"])
+def test_bad_states_change_nothing(kind: str) -> None:
+    env = started()
+    before = env.get_state()
+    with pytest.raises(ValueError):
+        env.set_state(bad_states()[kind])
+    assert env.get_state() == before
+
+
+def _play_and_send(connection: Any, env: MagWormVectorEnv) -> None:
+    fresh = MagWormVectorEnv(64, max_episode_steps=5, threads=2)
+    fresh.reset(seed=0)
+    fresh.step(np.zeros((64, 3)))
+    connection.send(play(env, 4, seed=3))
+
+
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="no fork on this platform")
+def test_fork_with_a_live_thread_pool() -> None:
+    warm = MagWormVectorEnv(64, max_episode_steps=5, threads=2)
+    warm.reset(seed=0)
+    warm.step(np.zeros((64, 3)))
+    env = started(threads=2)
+    context = multiprocessing.get_context("fork")
+    receiver, sender = context.Pipe(duplex=False)
+    child = context.Process(target=_play_and_send, args=(sender, env))
+    child.start()
+    try:
+        assert receiver.poll(PATIENCE_S), "the forked process hangs"
+        assert data_equivalence(play(env, 4, seed=3), receiver.recv(), exact=True)
+        child.join(PATIENCE_S)
+        assert child.exitcode == 0
+    finally:
+        child.kill()
+
+
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+@pytest.mark.parametrize("context", ["fork", "spawn"])
+def test_processes_of_single_environments(context: str) -> None:
+    if context not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"no {context} on this platform")
+    processes = gymnasium.vector.AsyncVectorEnv(
+        [lambda: MagWormEnv(max_episode_steps=3)] * 2, context=context
+    )
+    native = MagWormVectorEnv(2, max_episode_steps=3, threads=2)
+    try:
+        assert data_equivalence(native.reset(seed=0), processes.reset(seed=0), exact=True)
+        for actions in np.random.default_rng(0).uniform(-1, 1, (5, 2, 3)).astype(np.float32):
+            assert data_equivalence(native.step(actions), processes.step(actions), exact=True)
+    finally:
+        processes.close()
