@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-START_FIELDS = ("x_m", "height_m", "angle_deg")
-"""Fields of the option `start`."""
+START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
+"""Fields of the option `start`, each with its largest magnitude: those of a scene."""
 
 
 @dataclass(frozen=True)
@@ -86,11 +86,13 @@ def _mask(value: Any, num_envs: int) -> NDArray[np.bool_]:
 
 
 def _start(value: Any, num_envs: int) -> NDArray[np.float64]:
-    fields = _mapping('options["start"]', value, START_FIELDS)
-    columns = [
-        _numbers(f'options["start"]["{name}"]', fields.get(name, 0.0), num_envs) for name in START_FIELDS
-    ]
-    start = np.stack(columns, axis=1)
+    fields = _mapping('options["start"]', value, tuple(START_LIMITS))
+    start = np.zeros((num_envs, len(START_LIMITS)))
+    for column, (name, limit) in enumerate(START_LIMITS.items()):
+        field = f'options["start"]["{name}"]'
+        start[:, column] = _numbers(field, fields.get(name, 0.0), num_envs)
+        if (np.abs(start[:, column]) > limit).any():
+            raise ValueError(f"{field} is {fields[name]!r}; allowed: -{limit:g} to {limit:g}")
     start[:, 2] = np.deg2rad(start[:, 2])
     return start
 

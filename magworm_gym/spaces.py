@@ -13,7 +13,8 @@ def box(specifications: Iterable[Specification]) -> Box:
     """The space of one row, with components in the order of `specifications`, as float32.
 
     Bounds that float32 cannot hold are rounded outwards: a value that keeps to the bound in
-    double precision keeps to it in single precision too.
+    double precision keeps to it in single precision too. A bound that is left open becomes the
+    largest finite number: the simulator lets nothing else out.
     """
     specifications = tuple(specifications)
     low = np.concatenate([np.full(part.size, part.low) for part in specifications])
@@ -22,7 +23,7 @@ def box(specifications: Iterable[Specification]) -> Box:
 
 
 def layout(specifications: Iterable[Specification]) -> dict[str, slice]:
-    """Where each named part stands in a row: ``row[layout["previous_action"]]``."""
+    """Where each named part stands in a row: ``row[layout["last_action"]]``."""
     slices, start = {}, 0
     for part in specifications:
         slices[part.name] = slice(start, start + part.size)
@@ -31,6 +32,9 @@ def layout(specifications: Iterable[Specification]) -> dict[str, slice]:
 
 
 def _rounded(bounds: NDArray[np.float64], *, towards: float) -> NDArray[np.float32]:
+    largest = np.finfo(np.float32).max
+    bounds = np.clip(bounds, -largest, largest)
     single = bounds.astype(np.float32)
     inside = single > bounds if towards < 0 else single < bounds
-    return np.where(inside, np.nextafter(single, np.float32(towards)), single)
+    single[inside] = np.nextafter(single[inside], np.float32(towards))
+    return single

@@ -76,6 +76,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     metadata: dict[str, Any] = {"render_modes": list(RENDER_MODES), "render_fps": 50}  # noqa: RUF012
 
+    # Here, since Gymnasium may close an environment whose constructor raised.
+    _drawing: Drawing | None = None
+
     def __init__(
         self,
         num_envs: int = 1,
@@ -118,7 +121,6 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self._elapsed_steps = np.zeros(self.num_envs, np.int64)
         self._ended = np.zeros(self.num_envs, np.bool_)
         self._starts = np.full((self.num_envs, 3), np.nan)  # NaN: the scene's
-        self._drawing: Drawing | None = None
 
     @property
     def batch(self) -> Batch:

@@ -1,5 +1,6 @@
 """The native vector environment: interface, seeds, options, modes, broken worms."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import gymnasium
@@ -10,6 +11,7 @@ from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from magworm_gym import MagWormEnv, MagWormVectorEnv, Scene, SceneError
+from magworm_gym.spaces import box
 
 MODES = list(AutoresetMode)
 
@@ -55,14 +57,23 @@ def breaking(env: MagWormVectorEnv, environment: int, step: int) -> MagWormVecto
 
 def test_spaces_follow_from_the_simulator() -> None:
     env = crawl()
-    low = np.concatenate([np.full(p.size, p.low) for p in env.batch.observation_specification])
+    size = sum(part.size for part in env.batch.observation_specification)
     assert env.single_action_space == gymnasium.spaces.Box(-1, 1, (3,), np.float32)
-    assert env.single_observation_space.shape == low.shape
-    assert (env.single_observation_space.low <= low).all()
-    assert np.allclose(env.single_observation_space.low, low, rtol=1e-6)
-    assert np.isfinite(env.single_observation_space.high).all()
+    assert env.single_observation_space.shape == (size,)
+    assert np.isfinite([env.single_observation_space.low, env.single_observation_space.high]).all()
     parts = env.observation_layout
-    assert parts["previous_action"] == slice(low.size - 3, low.size)
+    assert parts["last_action"] == slice(size - 3, size)
+
+
+def test_bounds_are_rounded_outwards() -> None:
+    third = SimpleNamespace(name="third", size=2, low=-1.0 / 3.0, high=0.1)
+    space, open_space = box([third]), box([SimpleNamespace(name="open", size=1, low=-np.inf, high=np.inf)])
+    assert (space.low.astype(np.float64) <= third.low).all() and (
+        space.high.astype(np.float64) >= third.high
+    ).all()
+    np.testing.assert_allclose(space.high, third.high, rtol=1e-6)
+    assert np.full(1, np.finfo(np.float32).max) in open_space
+    assert np.full(1, np.inf, np.float32) not in open_space
 
 
 def test_previous_action_is_observed() -> None:
@@ -70,7 +81,7 @@ def test_previous_action_is_observed() -> None:
     env.reset(seed=0)
     actions = random_actions(env, 1)[0]
     observations = env.step(actions)[0]
-    np.testing.assert_array_equal(observations[:, env.observation_layout["previous_action"]], actions)
+    np.testing.assert_array_equal(observations[:, env.observation_layout["last_action"]], actions)
 
 
 def test_reward_is_progress_in_millimetres() -> None:
@@ -114,6 +125,20 @@ def test_time_limit_is_told_from_breaking() -> None:
     assert "broken" not in infos
 
 
+def test_a_worm_that_is_torn_apart_truncates_alone() -> None:
+    env, calm = crawl(max_episode_steps=50), crawl(max_episode_steps=50)
+    calm.reset(seed=0)
+    env.reset(seed=0, options={"parameters": {"remanence": [1.0, 1000.0, 1.0]}})
+    actions = random_actions(env, 1)[0]
+    observations, rewards, _, truncated, infos = env.step(actions)
+    expected = calm.step(actions)
+    assert truncated.tolist() == infos["_broken"].tolist() == [False, True, False]
+    assert "stretched" in infos["broken"][1]
+    assert observations in env.observation_space
+    np.testing.assert_array_equal(observations[[0, 2]], expected[0][[0, 2]])
+    np.testing.assert_array_equal(rewards, [expected[1][0], 0.0, expected[1][2]])
+
+
 @pytest.mark.parametrize("mode", MODES)
 def test_the_others_go_on_when_one_breaks(mode: AutoresetMode) -> None:
     calm, broken = crawl(autoreset_mode=mode), breaking(crawl(autoreset_mode=mode), environment=1, step=2)
@@ -154,7 +179,7 @@ def test_next_step_ignores_the_action_of_an_ended_episode() -> None:
     observations, rewards, _, truncated, infos = env.step(np.full((3, 3), np.nan))
     assert not rewards.any() and not truncated.any()
     assert infos["episode_number"].tolist() == [1, 1, 1]
-    assert not observations[:, env.observation_layout["previous_action"]].any()
+    assert not observations[:, env.observation_layout["last_action"]].any()
 
 
 def test_disabled_waits_for_the_reset() -> None:

@@ -46,7 +46,7 @@ def crawl_speed_m_s(
 
     Args:
         batch: Robots (N); magnets present and parameters as set before.
-        trial: Times of settling and measuring.
+        trial: Times of settling and measuring, rounded to whole control steps.
         seeds: Seeds of the environments (N,), episode 0.
         controller: Drives the stage; None for a scene whose drive is not controlled.
         start: Start poses (N, 3): x [m], height [m], angle [rad]; None for the scene's.
@@ -124,8 +124,10 @@ def _step(batch: Batch, controller: Controller | None) -> None:
 
 
 def _run(batch: Batch, controller: Controller | None, duration_s: float) -> None:
-    if controller is None:
-        batch.advance(duration_s)
+    """Runs for the whole number of control steps next to a duration [s]."""
+    steps = round(duration_s / batch.scene.control_step_s)
+    if controller is None and steps:
+        batch.advance(steps * batch.scene.control_step_s)
         return
-    for _ in range(round(duration_s / batch.scene.control_step_s)):
+    for _ in range(steps):
         _step(batch, controller)

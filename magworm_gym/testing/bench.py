@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass
 from functools import wraps
@@ -165,7 +166,9 @@ def finding(title: str) -> Callable[[Callable[[Bench, AnyVectorEnv], None]], Cal
                 return Finding(title, "failed", f"raised {type(error).__name__}: {error}")
             finally:
                 if env is not None and bench.is_factory:
-                    env.close()
+                    # Closing has a check of its own.
+                    with suppress(Exception):
+                        env.close()
             return Finding(title, "passed")
 
         return check
@@ -203,3 +206,17 @@ def batched(env: AnyVectorEnv, actions: Sequence[Any]) -> Any:
 def equal(one: Any, other: Any) -> bool:
     """Whether two pieces of data are equal in structure, type and bits of value."""
     return data_equivalence(one, other, exact=True)
+
+
+def share_memory(one: Any, other: Any) -> bool:
+    """Whether two pieces of data share a dictionary or memory of an array."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        common = one.keys() & other.keys()
+        return one is other or any(share_memory(one[key], other[key]) for key in common)
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return any(share_memory(*pair) for pair in zip(one, other, strict=False))
+    if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
+        return False
+    if one.dtype == np.object_:
+        return one is other or any(share_memory(*pair) for pair in zip(one.flat, other.flat, strict=False))
+    return bool(np.shares_memory(one, other))

@@ -10,11 +10,19 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Space
 from gymnasium.spaces.utils import is_space_dtype_shape_equiv
-from gymnasium.utils.passive_env_checker import data_shares_objects
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from magworm_gym.testing.bench import FEW_STEPS, AnyVectorEnv, Bench, declared_mode, equal, finding, rows
+from magworm_gym.testing.bench import (
+    FEW_STEPS,
+    AnyVectorEnv,
+    Bench,
+    declared_mode,
+    equal,
+    finding,
+    rows,
+    share_memory,
+)
 from magworm_gym.testing.report import Noted, Skipped
 
 
@@ -96,7 +104,7 @@ def freshness(bench: Bench, env: AnyVectorEnv) -> None:
         }
         for earlier, _ in kept[-2:]:
             for name, data in returned.items():
-                assert not data_shares_objects(earlier[name], data), (
+                assert not share_memory(earlier[name], data), (
                     f"two calls of step returned {name} that share memory"
                 )
         kept.append((returned, deepcopy(returned)))

@@ -56,7 +56,11 @@ impl Batch {
         let lanes = match lanes {
             "wide" => LaneChoice::Wide,
             "scalar" => LaneChoice::Scalar,
-            other => return Err(value_error(format!("lanes is {other:?}; allowed: \"wide\", \"scalar\""))),
+            other => {
+                return Err(value_error(format!(
+                    "lanes is {other:?}; allowed: \"wide\", \"scalar\""
+                )));
+            }
         };
         if num_envs == 0 || num_envs > 1 << 24 {
             return Err(value_error(format!("num_envs is {num_envs}; allowed: 1 to {}", 1 << 24)));
@@ -64,7 +68,10 @@ impl Batch {
         if threads == Some(0) || threads.is_some_and(|t| t > 4096) {
             return Err(value_error("threads is out of range; allowed: None, or 1 to 4096"));
         }
-        Ok(Self { batch: state::Batch::new(scene.model.clone(), num_envs, lanes, threads), threads })
+        Ok(Self {
+            batch: state::Batch::new(scene.model.clone(), num_envs, lanes, threads),
+            threads,
+        })
     }
 
     #[getter]
@@ -97,9 +104,12 @@ impl Batch {
         let column = parameter_column(name)?;
         let values = read("factors", &factors, &[self.batch.count()])?;
         let drive_speed = name == Parameter::DriveSpeed.name();
-        if let Some((k, bad)) = values.iter().enumerate().find(|(_, f)| !factor_allowed(**f, drive_speed)) {
+        if let Some((k, bad)) =
+            values.iter().enumerate().find(|(_, f)| !factor_allowed(**f, drive_speed))
+        {
             let allowed = if drive_speed { "-1e3 to 1e3" } else { "0 to 1e3" };
-            let message = format!("factor of {name} in environment {k} is {bad}; allowed: {allowed}");
+            let message =
+                format!("factor of {name} in environment {k} is {bad}; allowed: {allowed}");
             return Err(value_error(message));
         }
         let rows = self.batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
@@ -209,7 +219,9 @@ impl Batch {
     #[staticmethod]
     fn status_text(code: u8) -> PyResult<&'static str> {
         let status = Status::from_code(code);
-        status.map(Status::text).ok_or_else(|| value_error(format!("status code {code} is unknown")))
+        status
+            .map(Status::text)
+            .ok_or_else(|| value_error(format!("status code {code} is unknown")))
     }
 
     fn time_s<'py>(&self, py: Python<'py>) -> Arrays1<'py, f64> {
@@ -269,8 +281,13 @@ impl Batch {
             LaneChoice::Wide => "wide",
             LaneChoice::Scalar => "scalar",
         };
-        let arguments =
-            (self.scene().into_pyobject(py)?, self.batch.count(), lanes, self.threads, self.get_state(py));
+        let arguments = (
+            self.scene().into_pyobject(py)?,
+            self.batch.count(),
+            lanes,
+            self.threads,
+            self.get_state(py),
+        );
         (rebuild, arguments).into_pyobject(py).map(Bound::into_any)
     }
 }
@@ -307,7 +324,10 @@ pub fn _rebuild_batch(
     Ok(batch)
 }
 
-fn specifications(py: Python<'_>, slices: Vec<observe::Specification>) -> PyResult<Bound<'_, PyAny>> {
+fn specifications(
+    py: Python<'_>,
+    slices: Vec<observe::Specification>,
+) -> PyResult<Bound<'_, PyAny>> {
     let slices = slices.into_iter().map(|s| Py::new(py, Specification::from(s)));
     let slices = slices.collect::<PyResult<Vec<_>>>()?;
     Ok(pyo3::types::PyTuple::new(py, slices)?.into_any())

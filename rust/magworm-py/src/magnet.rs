@@ -22,7 +22,9 @@ pub fn cuboid_field<'py>(
     let points = vectors("points_m", &points_m, count)?;
     let flux = py.detach(|| {
         let pairs = points.iter().zip(&magnetisation);
-        pairs.map(|(&point, &remanence)| field_t(Vector3::from(size_m), remanence, point)).collect::<Vec<_>>()
+        pairs
+            .map(|(&point, &remanence)| field_t(Vector3::from(size_m), remanence, point))
+            .collect::<Vec<_>>()
     });
     table(py, &flux)
 }
@@ -48,7 +50,9 @@ pub fn cuboid_wrench<'py>(
     let dipole = match model {
         "cuboid" => false,
         "dipole" => true,
-        other => return Err(value_error(format!("model is {other:?}; allowed: \"cuboid\", \"dipole\""))),
+        other => {
+            return Err(value_error(format!("model is {other:?}; allowed: \"cuboid\", \"dipole\"")));
+        }
     };
     let count = rows(&position_m)?;
     let positions = vectors("position_m", &position_m, count)?;

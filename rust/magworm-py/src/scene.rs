@@ -4,7 +4,9 @@ use crate::errors::{scene_error, value_error};
 use magworm::model::Model;
 use magworm::scene::{self, Motion};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString, PyTuple};
+use pyo3::types::{
+    PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString, PyTuple,
+};
 use std::sync::Arc;
 use toml::Value;
 
@@ -92,7 +94,8 @@ impl Scene {
 
     #[getter]
     fn stage_limits<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(Motion::Controlled(limits)) = self.inner().drive.as_ref().map(|d| &d.motion) else {
+        let Some(Motion::Controlled(limits)) = self.inner().drive.as_ref().map(|d| &d.motion)
+        else {
             return Ok(None);
         };
         let dict = PyDict::new(py);
@@ -148,7 +151,8 @@ fn toml_value(path: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
         return Ok(None);
     }
     let required = |value: &Bound<'_, PyAny>, inner: &str| -> PyResult<Value> {
-        toml_value(inner, value)?.ok_or_else(|| value_error(format!("{inner} is None; leave it out")))
+        toml_value(inner, value)?
+            .ok_or_else(|| value_error(format!("{inner} is None; leave it out")))
     };
     let converted = if value.is_instance_of::<PyBool>() {
         Value::Boolean(value.extract()?)
@@ -167,7 +171,8 @@ fn toml_value(path: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
         }
         Value::Table(table)
     } else if value.is_instance_of::<PyList>() || value.cast::<PySequence>().is_ok() {
-        let items = value.try_iter()?.map(|item| required(&item?, path)).collect::<PyResult<_>>()?;
+        let items =
+            value.try_iter()?.map(|item| required(&item?, path)).collect::<PyResult<_>>()?;
         Value::Array(items)
     } else if let Ok(number) = value.extract::<f64>() {
         Value::Float(number)

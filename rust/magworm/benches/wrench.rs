@@ -9,16 +9,8 @@ use magworm::magnetic::{Cuboid, PlanarDipole, PlanarPair};
 use std::hint::black_box;
 use std::time::Instant;
 
-const DRIVE: Cuboid = Cuboid {
-    length_m: 0.040,
-    height_m: 0.005,
-    width_m: 0.040,
-};
-const BODY: Cuboid = Cuboid {
-    length_m: 0.010,
-    height_m: 0.003,
-    width_m: 0.010,
-};
+const DRIVE: Cuboid = Cuboid { length_m: 0.040, height_m: 0.005, width_m: 0.040 };
+const BODY: Cuboid = Cuboid { length_m: 0.010, height_m: 0.003, width_m: 0.010 };
 const STRENGTH_T2: f64 = 1.22 * 1.22;
 const ROWS: usize = 64;
 const REPEATS: usize = 2000;
@@ -85,10 +77,7 @@ fn time(mut sweep: impl FnMut() -> Vec<[[f64; WIDE]; 3]>, repeats: usize) -> f64
 
 /// Largest errors of force and torque relative to their largest values.
 fn error(values: &[[[f64; WIDE]; 3]], exact: &[[[f64; WIDE]; 3]]) -> [f64; 2] {
-    let lanes = values
-        .iter()
-        .zip(exact)
-        .flat_map(|(v, e)| (0..WIDE).map(move |k| (v, e, k)));
+    let lanes = values.iter().zip(exact).flat_map(|(v, e)| (0..WIDE).map(move |k| (v, e, k)));
     let (mut gap, mut size) = ([0.0_f64; 2], [0.0_f64; 2]);
     for (v, e, k) in lanes {
         gap[0] = gap[0].max((v[0][k] - e[0][k]).hypot(v[1][k] - e[1][k]));
@@ -105,26 +94,14 @@ fn main() {
     println!("order | scalar ns | eight lanes ns | force error | torque error");
     for order in 1..=5 {
         let pair = PlanarPair::new(DRIVE, BODY, order);
-        let one = || {
-            scalar(&poses, |dx, dy, c, s| {
-                pair.wrench(dx, dy, c, s, STRENGTH_T2)
-            })
-        };
+        let one = || scalar(&poses, |dx, dy, c, s| pair.wrench(dx, dy, c, s, STRENGTH_T2));
         let wide = || run_wide(Sweep(black_box(&pair), black_box(&poses)));
         let [force, torque] = error(&wide(), &exact);
         let (scalar_ns, wide_ns) = (time(one, REPEATS / 8), time(wide, REPEATS));
         println!("{order:5} | {scalar_ns:9.1} | {wide_ns:14.2} | {force:11.1e} | {torque:12.1e}");
     }
     let dipole = PlanarDipole::new(DRIVE, BODY);
-    let one = || {
-        scalar(&poses, |dx, dy, c, s| {
-            dipole.wrench(dx, dy, c, s, STRENGTH_T2)
-        })
-    };
+    let one = || scalar(&poses, |dx, dy, c, s| dipole.wrench(dx, dy, c, s, STRENGTH_T2));
     let [force, torque] = error(&one(), &exact);
-    println!(
-        "dipole| {:9.1} | {:>14} | {force:11.1e} | {torque:12.1e}",
-        time(one, REPEATS),
-        ""
-    );
+    println!("dipole| {:9.1} | {:>14} | {force:11.1e} | {torque:12.1e}", time(one, REPEATS), "");
 }

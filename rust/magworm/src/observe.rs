@@ -73,9 +73,18 @@ pub fn observation(model: &Model) -> Vec<Specification> {
         slice("magnet_vx", &speed, magnets, "velocity of each body magnet along x"),
         slice("magnet_vy", &speed, magnets, "velocity of each body magnet along y"),
         slice("magnet_rate", &turn, magnets, "angular velocity of each body magnet"),
-        slice("drive_position", &length, 2, "x of the drive from the robot's centre, and its height"),
+        slice(
+            "drive_position",
+            &length,
+            2,
+            "x of the drive from the robot's centre, and its height",
+        ),
         slice("drive_velocity", &speed, 2, "velocity of the drive along x and y"),
-        Specification { low: -1.0, high: 1.0, ..slice("last_action", "1", ACTION_SIZE, "the action before") },
+        Specification {
+            low: -1.0,
+            high: 1.0,
+            ..slice("last_action", "1", ACTION_SIZE, "the action before")
+        },
     ]
 }
 
@@ -90,7 +99,10 @@ pub fn action() -> Vec<Specification> {
         description,
     };
     vec![
-        component("position", "target along the robot: −1 and 1 are the stage's reach ahead of and behind its centre"),
+        component(
+            "position",
+            "target along the robot: −1 and 1 are the stage's reach ahead of and behind its centre",
+        ),
         component("height", "target height: −1 is the lowest, 1 the highest of the stage"),
         component("speed", "travel speed of each axis: −1 is none, 1 the stage's limit"),
     ]

@@ -47,11 +47,7 @@ fn mix(mut z: u64) -> u64 {
 /// The scene's start pose.
 pub fn scene_start(model: &Model) -> StartPose {
     let start = &model.scene.start;
-    StartPose {
-        x_m: start.x_m,
-        height_m: start.height_m,
-        angle_rad: start.angle_deg.to_radians(),
-    }
+    StartPose { x_m: start.x_m, height_m: start.height_m, angle_rad: start.angle_deg.to_radians() }
 }
 
 /// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
@@ -95,7 +91,12 @@ pub fn reset<const W: usize>(
     block.status[lane] = Status::Running;
 }
 
-fn lay_straight<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize, start: StartPose) {
+fn lay_straight<const W: usize>(
+    model: &Model,
+    block: &mut Block<W>,
+    lane: usize,
+    start: StartPose,
+) {
     for rows in block.state_rows_mut().into_iter().take(5) {
         rows.iter_mut().for_each(|row| row[lane] = 0.0);
     }
@@ -130,9 +131,13 @@ fn lay_straight<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize
 /// How far the centre line's head end lies above the lowest contact point; 0 without ground.
 fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
     let below = |sole: &crate::model::Sole| sole.depth_m * cos - model.mesh.arc_m[sole.node] * sin;
-    model.mesh.soles.iter().map(below).fold(None, |most: Option<f64>, d| {
-        Some(most.map_or(d, |m| m.max(d)))
-    }).unwrap_or(0.0)
+    model
+        .mesh
+        .soles
+        .iter()
+        .map(below)
+        .fold(None, |most: Option<f64>, d| Some(most.map_or(d, |m| m.max(d))))
+        .unwrap_or(0.0)
 }
 
 /// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.

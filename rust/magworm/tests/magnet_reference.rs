@@ -7,11 +7,7 @@ const REFERENCE: &str = include_str!("data/magnet_reference.csv");
 
 /// Poses and wrenches of the reference; columns are named in the file's first line.
 fn rows() -> Vec<Vec<f64>> {
-    let parse = |line: &str| {
-        line.split(',')
-            .map(|cell| cell.trim().parse().unwrap())
-            .collect()
-    };
+    let parse = |line: &str| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect();
     REFERENCE.lines().skip(1).map(parse).collect()
 }
 
@@ -20,23 +16,11 @@ fn vector(row: &[f64], column: usize) -> Vector3<f64> {
 }
 
 fn reference_and_model(row: &[f64], order: usize) -> (Wrench, Wrench) {
-    let drive = Magnet {
-        size_m: vector(row, 0),
-        remanence_t: row[19] * vector(row, 13),
-    };
-    let body = Magnet {
-        size_m: vector(row, 3),
-        remanence_t: row[20] * vector(row, 16),
-    };
+    let drive = Magnet { size_m: vector(row, 0), remanence_t: row[19] * vector(row, 13) };
+    let body = Magnet { size_m: vector(row, 3), remanence_t: row[20] * vector(row, 16) };
     let turn = UnitQuaternion::from_quaternion(Quaternion::new(row[9], row[10], row[11], row[12]));
-    let reference = Wrench {
-        force_n: vector(row, 21),
-        torque_n_m: vector(row, 24),
-    };
-    (
-        reference,
-        wrench(&drive, &body, vector(row, 6), turn, order),
-    )
+    let reference = Wrench { force_n: vector(row, 21), torque_n_m: vector(row, 24) };
+    (reference, wrench(&drive, &body, vector(row, 6), turn, order))
 }
 
 fn error(value: Vector3<f64>, exact: Vector3<f64>) -> f64 {
@@ -62,15 +46,9 @@ fn validates_every_reference_wrench_at_order_five() {
 
 #[test]
 fn validates_the_published_torque_of_two_large_magnets() {
-    let magnet = Magnet {
-        size_m: Vector3::new(0.04, 0.04, 0.02),
-        remanence_t: Vector3::new(0.0, 0.0, 1.3),
-    };
+    let magnet =
+        Magnet { size_m: Vector3::new(0.04, 0.04, 0.02), remanence_t: Vector3::new(0.0, 0.0, 1.3) };
     let offset = Vector3::new(0.02, 0.0, 0.03);
     let torque = wrench(&magnet, &magnet, offset, UnitQuaternion::identity(), 6).torque_n_m;
-    assert!(
-        (torque.y - 0.422829).abs() <= 1e-6,
-        "T_y = {} N·m",
-        torque.y
-    );
+    assert!((torque.y - 0.422829).abs() <= 1e-6, "T_y = {} N·m", torque.y);
 }

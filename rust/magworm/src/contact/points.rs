@@ -37,7 +37,8 @@ pub fn detect<const W: usize, I: Isa<W>>(
 #[inline(always)]
 fn gap<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, contact: &Contact) -> I::F {
     let sole = contact.sole;
-    isa.load(&block.node[2 * sole.node + 1]) - isa.load(&block.tangent[2 * sole.element]) * sole.depth_m
+    isa.load(&block.node[2 * sole.node + 1])
+        - isa.load(&block.tangent[2 * sole.element]) * sole.depth_m
 }
 
 /// Rows J_n, J_t over the contact's unknowns. The point p = x − d n turns with its element,
@@ -80,7 +81,8 @@ fn first_guess<const W: usize, I: Isa<W>>(
     let was_closed = !before.eq(isa.splat(Mode::OPEN));
     let closed = was_closed | u_n.lt(zero);
     let slow = u_t.abs().le(isa.splat(law.transition_speed_m_s));
-    let moving = I::F::select(slow, isa.splat(Mode::STICK), isa.splat(Mode::SLIDE_FORWARD).copysign(u_t));
+    let moving =
+        I::F::select(slow, isa.splat(Mode::STICK), isa.splat(Mode::SLIDE_FORWARD).copysign(u_t));
     isa.store(I::F::select(closed, moving, isa.splat(Mode::OPEN)), &mut block.mode[c]);
     let stuck = before.eq(isa.splat(Mode::STICK));
     let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);

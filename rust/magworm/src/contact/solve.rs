@@ -122,7 +122,8 @@ fn assemble_right<const W: usize, I: Isa<W>>(
         let stuck = mode.eq(isa.splat(Mode::STICK));
         let held = isa.load(&block.warm[2 * c]) - ground.weight * isa.load(&block.approach[c]);
         let friction = ground.dynamic_friction * isa.load(&block.reckoned[c]) + ground.adhesion;
-        let sliding = I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
+        let sliding =
+            I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
         let impulses = [held, sliding].map(|x| I::F::select(open, zero, x));
         for (direction, impulse) in impulses.into_iter().enumerate() {
             let row = jacobian(isa, block, c, direction);
@@ -166,7 +167,8 @@ fn update_modes<const W: usize, I: Isa<W>>(
     for (c, contact) in model.contacts.iter().enumerate() {
         let normal_row = jacobian(isa, block, c, 0);
         let tangential_row = jacobian(isa, block, c, 1);
-        let u_n = rate(isa, &block.next, &contact.stencil, &normal_row) + isa.load(&block.approach[c]);
+        let u_n =
+            rate(isa, &block.next, &contact.stencil, &normal_row) + isa.load(&block.approach[c]);
         let u_t = rate(isa, &block.next, &contact.stencil, &tangential_row);
         let point = Point {
             mode: isa.load(&block.mode[c]),

@@ -20,16 +20,24 @@ pub struct StageModel {
 impl StageModel {
     /// One step of one axis towards `target`, no faster than `limit`: (position, velocity) after it.
     ///
-    /// The velocity aimed at is the largest from which the stage still stops in time when it brakes
-    /// by a·dt every step: v (v + a dt)/(2a) = d, hence v = √(a²dt²/4 + 2ad) − a dt/2; nor more than
-    /// d/dt, which lands on the target.
+    /// Braking by a Δt every step, a stage that moves at v covers at most v²/2a + v Δt/2 + a Δt²/8 until it
+    /// stands (the last term where v is no multiple of a Δt). Solved for v that is √(2ad) − a Δt/2; from
+    /// no more than a Δt it stops at once and may land on the target.
     #[inline(always)]
-    pub fn advance<F: Real>(&self, position: F, velocity: F, target: F, limit: F, dt: f64) -> (F, F) {
+    pub fn advance<F: Real>(
+        &self,
+        position: F,
+        velocity: F,
+        target: F,
+        limit: F,
+        dt: f64,
+    ) -> (F, F) {
         let distance = target - position;
         let away = distance.abs();
         let gain = self.acceleration_m_s2 * dt;
-        let braking = (away * (2.0 * self.acceleration_m_s2) + 0.25 * gain * gain).sqrt() - 0.5 * gain;
-        let speed = braking.min(away / dt).min(limit);
+        let braking = (away * (2.0 * self.acceleration_m_s2)).sqrt() - 0.5 * gain;
+        let landing = (away / dt).min(away.splat(gain));
+        let speed = braking.max(landing).min(limit);
         let aim = speed.copysign(distance);
         let change = (aim - velocity).clamp(aim.splat(-gain), aim.splat(gain));
         let velocity = velocity + change;

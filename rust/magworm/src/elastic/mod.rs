@@ -16,8 +16,8 @@ pub use bend::assemble as bend;
 pub use kinematics::update as kinematics;
 pub use stretch::assemble as stretch;
 
-use crate::lanes::banded::Band;
 use crate::lanes::Isa;
+use crate::lanes::banded::Band;
 use crate::model::{Model, Stencil};
 use crate::state::Block;
 

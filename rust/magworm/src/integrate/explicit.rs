@@ -40,8 +40,7 @@ fn constrain<const W: usize, I: Isa<W>>(
     let turn = [-arm[1], arm[0]];
     for k in 0..2 {
         let row = tie.dof + k;
-        let strayed =
-            isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
+        let strayed = isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
         isa.store(-(strayed / dt), &mut block.right[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));

@@ -96,8 +96,8 @@ impl Band {
         for row in (0..self.size()).rev() {
             let known = isa.load(&right[row]);
             for column in self.first[row]..row {
-                let sum = isa.load(&right[column])
-                    - isa.load(&factored[self.at(row, column)]) * known;
+                let sum =
+                    isa.load(&right[column]) - isa.load(&factored[self.at(row, column)]) * known;
                 isa.store(sum, &mut right[column]);
             }
         }

@@ -29,11 +29,8 @@ const EIGHTH_TURN_LOW: f64 = 3.061_616_997_868_383e-17;
 /// tan(π/8): above it the arctangent is reduced by π/4.
 const TAN_PI_8: f64 = std::f64::consts::SQRT_2 - 1.0;
 /// π/2 in three parts of 33, 33 and 53 bits (Cody and Waite).
-const HALF_PI: [f64; 3] = [
-    1.570_796_326_734_125_6,
-    6.077_100_506_303_966e-11,
-    2.022_266_248_795_950_6e-21,
-];
+const HALF_PI: [f64; 3] =
+    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 /// 1.5 · 2⁵²: adding and subtracting it rounds to the nearest integer.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 

@@ -41,11 +41,7 @@ pub fn field<F: Real>(half: [f64; 3], remanence: [f64; 3], at: [F; 3]) -> [F; 3]
     let [qz, qx, qy] = unit_field([c, a, b], [z, x, y]);
     let [rx, ry, rz] = unit_field([a, b, c], [x, y, z]);
     let [jx, jy, jz] = remanence;
-    [
-        px * jx + qx * jy + rx * jz,
-        py * jx + qy * jy + ry * jz,
-        pz * jx + qz * jy + rz * jz,
-    ]
+    [px * jx + qx * jy + rx * jz, py * jx + qy * jy + ry * jz, pz * jx + qz * jy + rz * jz]
 }
 
 /// B/J of a cuboid magnetised along z, at any point: the accurate form.
@@ -65,11 +61,7 @@ pub fn unit_field<F: Real>(half: [f64; 3], at: [F; 3]) -> [F; 3] {
     let one = at[0].splat(1.0);
     let bz = (near - far) * (0.25 / PI) + F::select(inside, one, at[0].splat(0.0));
     let sign = one.copysign(at[2]);
-    [
-        bx * one.copysign(at[0]) * sign,
-        by * one.copysign(at[1]) * sign,
-        bz,
-    ]
+    [bx * one.copysign(at[0]) * sign, by * one.copysign(at[1]) * sign, bz]
 }
 
 /// B/J of a cuboid magnetised along z, at a point outside: the fast form for quadrature.
@@ -86,10 +78,7 @@ pub fn unit_field_outside<F: Real>(half: [f64; 3], at: [F; 3]) -> [F; 3] {
     let by = corners.transposed().logarithm(plain_edge);
     let near = corners.face_triangles(1);
     let far = corners.face_triangles(0);
-    let turn = atan2(
-        near[1] * far[0] - near[0] * far[1],
-        near[0] * far[0] + near[1] * far[1],
-    );
+    let turn = atan2(near[1] * far[0] - near[0] * far[1], near[0] * far[0] + near[1] * far[1]);
     [bx, by, turn * (0.5 / PI)]
 }
 
@@ -119,13 +108,7 @@ impl<F: Real> Corners<F> {
                 }
             }
         }
-        Corners {
-            u,
-            v,
-            w,
-            r,
-            length: [2.0 * half[0], 2.0 * half[1]],
-        }
+        Corners { u, v, w, r, length: [2.0 * half[0], 2.0 * half[1]] }
     }
 
     /// The same corners with x and y exchanged.
@@ -134,13 +117,7 @@ impl<F: Real> Corners<F> {
         let r = self.r;
         let r = [[r[0][0], r[1][0]], [r[0][1], r[1][1]]];
         let length = [self.length[1], self.length[0]];
-        Corners {
-            u: self.v,
-            v: self.u,
-            w: self.w,
-            r,
-            length,
-        }
+        Corners { u: self.v, v: self.u, w: self.w, r, length }
     }
 
     /// The edge along y at the corner offsets U_i and W_k.
@@ -171,20 +148,14 @@ impl<F: Real> Corners<F> {
         let (u, w) = (self.u[i], self.w[k]);
         let [v0, v1] = self.v;
         let [r0, r1] = [self.r[i][0][k], self.r[i][1][k]];
-        atan2(
-            u * w * (v0 * r1 - v1 * r0),
-            r0 * r1 * w * w + u * u * v0 * v1,
-        )
+        atan2(u * w * (v0 * r1 - v1 * r0), r0 * r1 * w * w + u * u * v0 * v1)
     }
 
     /// A vector (D, N) at the angle Ω/2 of a face's solid angle.
     #[inline(always)]
     fn face_triangles(&self, k: usize) -> [F; 2] {
         let ([u0, u1], [v0, v1], w) = (self.u, self.v, self.w[k]);
-        let r = [
-            [self.r[0][0][k], self.r[0][1][k]],
-            [self.r[1][0][k], self.r[1][1][k]],
-        ];
+        let r = [[self.r[0][0][k], self.r[0][1][k]], [self.r[1][0][k], self.r[1][1][k]]];
         let ww = w * w;
         let (uu, vv) = (u0 * u1 + ww, v0 * v1 + ww);
         let shared = r[0][0] * r[1][1] + (uu + v0 * v1);
@@ -219,8 +190,5 @@ fn accurate_edge<F: Real>(edge: EdgeEnds<F>) -> (F, F) {
     let (vv, rr) = (edge.v[0] * edge.v[1], edge.r[0] * edge.r[1]);
     let squares = edge.square + edge.v[0] * edge.v[0] + edge.v[1] * edge.v[1];
     let beside = edge.square * (squares / (rr - vv) + 1.0);
-    (
-        sum * sum,
-        F::select(vv.lt(sum.splat(0.0)), beside, edge.square + vv + rr),
-    )
+    (sum * sum, F::select(vv.lt(sum.splat(0.0)), beside, edge.square + vv + rr))
 }

@@ -25,9 +25,7 @@ impl PlanarDipole {
     /// The dipoles of two cuboids.
     pub fn new(drive: Cuboid, body: Cuboid) -> Self {
         let volumes = drive.volume_m3() * body.volume_m3();
-        PlanarDipole {
-            scale: volumes / (4.0 * std::f64::consts::PI * MU_0),
-        }
+        PlanarDipole { scale: volumes / (4.0 * std::f64::consts::PI * MU_0) }
     }
 
     /// Force (F_x, F_y) [N] and torque T_z about the body's centre [N·m] on the body.

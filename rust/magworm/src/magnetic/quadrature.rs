@@ -32,11 +32,7 @@ impl GaussLegendre {
             (nodes[i], nodes[mirror]) = (-x, x);
             (weights[i], weights[mirror]) = (weight, weight);
         }
-        GaussLegendre {
-            order,
-            nodes,
-            weights,
-        }
+        GaussLegendre { order, nodes, weights }
     }
 
     /// Number of nodes.
@@ -82,10 +78,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, x);
     for k in 2..=n {
         let k = k as f64;
-        (before, value) = (
-            value,
-            ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
-        );
+        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
     }
     (value, n as f64 * (before - x * value) / (1.0 - x * x))
 }
@@ -99,21 +92,10 @@ mod tests {
         for order in 1..=MAX_ORDER {
             let rule = GaussLegendre::new(order);
             for degree in 0..2 * order as i32 {
-                let sum: f64 = rule
-                    .nodes()
-                    .iter()
-                    .zip(rule.weights())
-                    .map(|(x, w)| w * x.powi(degree))
-                    .sum();
-                let exact = if degree % 2 == 0 {
-                    2.0 / (f64::from(degree) + 1.0)
-                } else {
-                    0.0
-                };
-                assert!(
-                    (sum - exact).abs() < 4e-15,
-                    "order {order}, degree {degree}: {sum}"
-                );
+                let sum: f64 =
+                    rule.nodes().iter().zip(rule.weights()).map(|(x, w)| w * x.powi(degree)).sum();
+                let exact = if degree % 2 == 0 { 2.0 / (f64::from(degree) + 1.0) } else { 0.0 };
+                assert!((sum - exact).abs() < 4e-15, "order {order}, degree {degree}: {sum}");
             }
         }
     }

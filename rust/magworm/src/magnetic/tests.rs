@@ -6,25 +6,14 @@ use crate::lanes::{Isa, WIDE, WideTask, run_wide};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
-const DRIVE: Cuboid = Cuboid {
-    length_m: 0.040,
-    height_m: 0.005,
-    width_m: 0.030,
-};
-const BODY: Cuboid = Cuboid {
-    length_m: 0.010,
-    height_m: 0.003,
-    width_m: 0.012,
-};
+const DRIVE: Cuboid = Cuboid { length_m: 0.040, height_m: 0.005, width_m: 0.030 };
+const BODY: Cuboid = Cuboid { length_m: 0.010, height_m: 0.003, width_m: 0.012 };
 const SIZE: Vector3<f64> = Vector3::new(0.04, 0.03, 0.01);
 const REMANENCE: Vector3<f64> = Vector3::new(0.3, -0.5, 1.1);
 
 fn spatial(cuboid: Cuboid, remanence_t: Vector3<f64>) -> Magnet {
     let size_m = Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m);
-    Magnet {
-        size_m,
-        remanence_t,
-    }
+    Magnet { size_m, remanence_t }
 }
 
 fn planar(order: usize, dx: f64, dy: f64, angle: f64) -> [f64; 3] {
@@ -37,10 +26,7 @@ fn assert_close(value: [f64; 3], exact: [f64; 3], tolerance: f64) {
     let gap = (value[0] - exact[0]).hypot(value[1] - exact[1]);
     assert!(gap <= tolerance * force, "{value:?} is not {exact:?}");
     let moment = exact[2].abs().max(0.01 * force);
-    assert!(
-        (value[2] - exact[2]).abs() <= tolerance * moment,
-        "{value:?} is not {exact:?}"
-    );
+    assert!((value[2] - exact[2]).abs() <= tolerance * moment, "{value:?} is not {exact:?}");
 }
 
 /// ∂B_i/∂x_j by central differences of fourth order [T/m].
@@ -65,10 +51,7 @@ fn field_far_away_becomes_that_of_a_dipole_as_the_inverse_square() {
     };
     for r in [0.2, 0.4, 0.8] {
         let ratio = error(r) / error(2.0 * r);
-        assert!(
-            (3.5..4.5).contains(&ratio),
-            "halving factor {ratio} at {r} m"
-        );
+        assert!((3.5..4.5).contains(&ratio), "halving factor {ratio} at {r} m");
     }
     assert!(error(1.6) < 2e-3);
 }
@@ -77,11 +60,7 @@ fn field_far_away_becomes_that_of_a_dipole_as_the_inverse_square() {
 fn fast_field_equals_the_accurate_one_outside() {
     for i in 0..2000 {
         let t = f64::from(i);
-        let direction = [
-            (0.7 * t).sin(),
-            (1.3 * t + 1.0).sin(),
-            (2.1 * t + 2.0).sin(),
-        ];
+        let direction = [(0.7 * t).sin(), (1.3 * t + 1.0).sin(), (2.1 * t + 2.0).sin()];
         let largest = direction.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
         // On a box around the magnet, a tenth of its size or more away.
         let scale = 1.2 + 0.5 * (1.0 + (0.1 * t).sin());
@@ -90,10 +69,7 @@ fn fast_field_equals_the_accurate_one_outside() {
         let (fast, exact) = (unit_field_outside(half, at), unit_field(half, at));
         let norm = exact.iter().map(|b| b * b).sum::<f64>().sqrt();
         for k in 0..3 {
-            assert!(
-                (fast[k] - exact[k]).abs() <= 2e-13 * norm,
-                "{fast:?} is not {exact:?}"
-            );
+            assert!((fast[k] - exact[k]).abs() <= 2e-13 * norm, "{fast:?} is not {exact:?}");
         }
     }
 }
@@ -125,13 +101,7 @@ fn field_is_finite_and_continuous_on_extensions_of_edges_and_faces() {
 #[test]
 fn field_is_finite_on_edges_and_corners() {
     let h = 0.5 * SIZE;
-    for at in [
-        h,
-        -h,
-        Vector3::new(h.x, h.y, 0.0),
-        Vector3::new(0.0, h.y, h.z),
-        Vector3::zeros(),
-    ] {
+    for at in [h, -h, Vector3::new(h.x, h.y, 0.0), Vector3::new(0.0, h.y, h.z), Vector3::zeros()] {
         assert!(field_t(SIZE, REMANENCE, at).iter().all(|b| b.is_finite()));
     }
 }
@@ -147,15 +117,8 @@ fn field_jumps_by_the_magnetisation_across_a_side_and_not_along_the_normal() {
 
 #[test]
 fn planar_wrench_equals_the_spatial_one() {
-    let (drive, body) = (
-        spatial(DRIVE, Vector3::y()),
-        spatial(BODY, 1.5 * Vector3::y()),
-    );
-    for (dx, dy, angle) in [
-        (0.0, 0.022, 0.3),
-        (-0.03, 0.012, 2.0),
-        (0.045, -0.001, -1.0),
-    ] {
+    let (drive, body) = (spatial(DRIVE, Vector3::y()), spatial(BODY, 1.5 * Vector3::y()));
+    for (dx, dy, angle) in [(0.0, 0.022, 0.3), (-0.03, 0.012, 2.0), (0.045, -0.001, -1.0)] {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
         let exact = wrench(&drive, &body, Vector3::new(dx, dy, 0.0), turn, MAX_ORDER);
         let (f, t) = (exact.force_n, exact.torque_n_m);
@@ -167,11 +130,7 @@ fn planar_wrench_equals_the_spatial_one() {
 #[test]
 fn planar_wrench_has_the_published_values() {
     let pair = |d: [f64; 3], b: [f64; 3], order| {
-        let cuboid = |s: [f64; 3]| Cuboid {
-            length_m: s[0],
-            height_m: s[2],
-            width_m: s[1],
-        };
+        let cuboid = |s: [f64; 3]| Cuboid { length_m: s[0], height_m: s[2], width_m: s[1] };
         PlanarPair::new(cuboid(d), cuboid(b), order)
     };
     // Published in a frame whose z is up: (F_x, F_z, T_y), turned about y; here T_z = −T_y.
@@ -193,10 +152,7 @@ fn dipole_wrench_is_the_far_limit() {
     for (dx, dy, angle) in [(0.2, 0.3, 0.5), (-0.5, 0.1, 2.0)] {
         let near = PlanarDipole::relative_error(DRIVE, BODY, dx, dy, angle);
         let far = PlanarDipole::relative_error(DRIVE, BODY, 2.0 * dx, 2.0 * dy, angle);
-        assert!(
-            near < 0.02 && (3.6..4.4).contains(&(near / far)),
-            "{near} {far}"
-        );
+        assert!(near < 0.02 && (3.6..4.4).contains(&(near / far)), "{near} {far}");
     }
 }
 
@@ -211,26 +167,12 @@ fn uniform_field_turns_the_moment_towards_itself() {
 #[test]
 fn planar_wrench_is_finite_in_contact() {
     let (a, c) = (0.5 * DRIVE.length_m, 0.5 * DRIVE.height_m);
-    let equal = Cuboid {
-        width_m: DRIVE.width_m,
-        ..BODY
-    };
+    let equal = Cuboid { width_m: DRIVE.width_m, ..BODY };
     for body in [BODY, equal] {
         let pair = PlanarPair::new(DRIVE, body, 1);
-        for (x, y) in [
-            (a, c),
-            (-a, c),
-            (a, -c),
-            (0.01, c),
-            (0.0, 0.0),
-            (a, 0.02),
-            (0.03, c),
-        ] {
+        for (x, y) in [(a, c), (-a, c), (a, -c), (0.01, c), (0.0, 0.0), (a, 0.02), (0.03, c)] {
             let [fx, fy, t] = pair.wrench(x, y + 0.5 * body.height_m, 1.0, 0.0, 1.5);
-            assert!(
-                fx.is_finite() && fy.is_finite() && t.is_finite(),
-                "at {x}, {y}"
-            );
+            assert!(fx.is_finite() && fy.is_finite() && t.is_finite(), "at {x}, {y}");
         }
     }
 }
@@ -319,12 +261,7 @@ fn eight_lanes_have_the_bits_of_one() {
         let pose = |lane: usize| {
             let t = (i * WIDE + lane) as f64;
             let (sin, cos) = sin_cos(3.0 * (0.37 * t).sin());
-            [
-                0.1 * (0.11 * t).sin(),
-                0.03 + 0.017 * (0.23 * t).sin(),
-                cos,
-                sin,
-            ]
+            [0.1 * (0.11 * t).sin(), 0.03 + 0.017 * (0.23 * t).sin(), cos, sin]
         };
         let lanes: [[f64; 4]; WIDE] = std::array::from_fn(pose);
         let rows = std::array::from_fn(|k| lanes.map(|pose| pose[k]));

@@ -15,9 +15,7 @@ pub struct UniformField {
 impl UniformField {
     /// The magnet `body`.
     pub fn new(body: Cuboid) -> Self {
-        UniformField {
-            volume: body.volume_m3() / MU_0,
-        }
+        UniformField { volume: body.volume_m3() / MU_0 }
     }
 
     /// Torque T_z [N·m] in the field (`bx`, `by`) [T]; `cos`, `sin`: of the body's angle;

@@ -43,10 +43,7 @@ pub fn wrench(
     let panels = [0, 1, 2].map(|k| (body.size_m[k] / distance).ceil().clamp(1.0, 8.0) as usize);
     let pair = SpatialPair::with_panels(drive, body, order, panels);
     let [fx, fy, fz, tx, ty, tz] = pair.wrench(position_m.into(), axes);
-    Wrench {
-        force_n: Vector3::new(fx, fy, fz),
-        torque_n_m: Vector3::new(tx, ty, tz),
-    }
+    Wrench { force_n: Vector3::new(fx, fy, fz), torque_n_m: Vector3::new(tx, ty, tz) }
 }
 
 /// Smallest distance of a corner of the body from the drive [m].
@@ -58,13 +55,9 @@ fn corner_distance(
 ) -> f64 {
     let distance = |corner: usize| {
         let side = |k: usize| if corner >> k & 1 == 0 { -0.5 } else { 0.5 };
-        let corner = body
-            .size_m
-            .component_mul(&Vector3::new(side(0), side(1), side(2)));
+        let corner = body.size_m.component_mul(&Vector3::new(side(0), side(1), side(2)));
         let at = position_m + drive_from_body * corner;
-        (at.abs() - 0.5 * drive.size_m)
-            .sup(&Vector3::zeros())
-            .norm()
+        (at.abs() - 0.5 * drive.size_m).sup(&Vector3::zeros()).norm()
     };
     (0..8).map(distance).fold(f64::INFINITY, f64::min)
 }

@@ -25,7 +25,8 @@ pub struct MassPart {
 /// Contributions to the mass of every unknown that has one.
 pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<MassPart> {
     let mut rubber = vec![0.0; coordinates.count];
-    let mut point = |node: usize, mass_kg: f64| add_point(&mut rubber, coordinates, scene, node, mass_kg);
+    let mut point =
+        |node: usize, mass_kg: f64| add_point(&mut rubber, coordinates, scene, node, mass_kg);
     let density = scene.material.density_kg_m3;
     for (e, element) in mesh.elements.iter().enumerate() {
         let volume_m3 = mesh.element_length_m(e) * element.thickness_m * mesh.width_m;
@@ -45,13 +46,26 @@ pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<
             let thickness_m = mesh.elements[placed.element].thickness_m;
             let box_m3 = magnet.length_m * thickness_m * mesh.width_m;
             let around_kg = density * (box_m3 - magnet_volume_m3(scene));
-            parts.extend(body_parts(coordinates.bodies[body], body, magnet, density, around_kg, thickness_m));
+            parts.extend(body_parts(
+                coordinates.bodies[body],
+                body,
+                magnet,
+                density,
+                around_kg,
+                thickness_m,
+            ));
         }
     }
     parts
 }
 
-fn add_point(rubber: &mut [f64], coordinates: &Coordinates, scene: &Scene, node: usize, mass_kg: f64) {
+fn add_point(
+    rubber: &mut [f64],
+    coordinates: &Coordinates,
+    scene: &Scene,
+    node: usize,
+    mass_kg: f64,
+) {
     match coordinates.anchors[node] {
         Anchor::Free { dof } => {
             rubber[dof] += mass_kg;
@@ -83,7 +97,8 @@ fn body_parts(
     let gyration_m2 = (magnet.length_m.powi(2) + magnet.height_m.powi(2)) / 12.0;
     let centre_kg = around_kg * 2.0 / 3.0;
     let body = Some(body);
-    let translation = |dof| MassPart { dof, rubber: centre_kg, body, magnet: magnet_kg, fill: fill_kg };
+    let translation =
+        |dof| MassPart { dof, rubber: centre_kg, body, magnet: magnet_kg, fill: fill_kg };
     [
         translation(dof),
         translation(dof + 1),

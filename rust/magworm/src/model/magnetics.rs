@@ -28,8 +28,11 @@ impl Magnetics {
     pub fn new(scene: &Scene, magnet: &Magnet, drive: &Drive) -> Self {
         let source =
             Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
-        let body =
-            Cuboid { length_m: magnet.length_m, height_m: magnet.height_m, width_m: magnet.width_m };
+        let body = Cuboid {
+            length_m: magnet.length_m,
+            height_m: magnet.height_m,
+            width_m: magnet.width_m,
+        };
         let pair = match scene.solver.magnet_model {
             MagnetModel::Cuboid => {
                 PairModel::Cuboid(PlanarPair::new(source, body, scene.solver.quadrature_order))

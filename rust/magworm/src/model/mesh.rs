@@ -83,7 +83,11 @@ impl Mesh {
         let foot_end = |_| Segment {
             length_m: foot_end_m,
             thickness_m: worm.foot_thickness_m,
-            parts: if foot_end_m > 1e-9 * worm.foot_length_m { worm.elements_per_foot_end } else { 0 },
+            parts: if foot_end_m > 1e-9 * worm.foot_length_m {
+                worm.elements_per_foot_end
+            } else {
+                0
+            },
             magnet: None,
         };
         let mut segments = Vec::new();
@@ -174,8 +178,7 @@ impl Mesh {
                     let (polarity, present) = magnets[j];
                     mesh_magnets.push(MeshMagnet { element: elements.len(), polarity, present });
                 }
-                elements
-                    .push(Element { thickness_m: segment.thickness_m, magnet: segment.magnet });
+                elements.push(Element { thickness_m: segment.thickness_m, magnet: segment.magnet });
                 arc_m.push(start_m + segment.length_m * part as f64 / segment.parts as f64);
             }
         }

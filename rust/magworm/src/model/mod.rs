@@ -194,10 +194,12 @@ impl Program {
             magnetics: magnetic
                 .zip(scene.drive.as_ref())
                 .map(|(magnet, drive)| Magnetics::new(scene, magnet, drive)),
-            uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| UniformTorque {
-                field_t: [field.x_t, field.y_t],
-                moment_per_tesla: magnet.length_m * magnet.width_m * magnet.height_m
-                    / crate::magnetic::MU_0,
+            uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| {
+                UniformTorque {
+                    field_t: [field.x_t, field.y_t],
+                    moment_per_tesla: magnet.length_m * magnet.width_m * magnet.height_m
+                        / crate::magnetic::MU_0,
+                }
             }),
             ground: scene.ground.as_ref().map(|g| GroundLaw {
                 static_friction: g.static_friction,
@@ -248,8 +250,7 @@ fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
         if magnet.is_some() {
             return 0.0;
         }
-        0.5 * mesh.element_length_m(element)
-            / (scene.material.youngs_modulus_pa * second_moment_m4)
+        0.5 * mesh.element_length_m(element) / (scene.material.youngs_modulus_pa * second_moment_m4)
     };
     (1..mesh.elements.len())
         .map(|node| Bend {
@@ -297,5 +298,7 @@ fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {
         Anchor::Free { dof } => Some(dof),
         _ => None,
     });
-    free.chain(coordinates.bodies.iter().copied()).flat_map(|dof| [(dof, 0), (dof + 1, 1)]).collect()
+    free.chain(coordinates.bodies.iter().copied())
+        .flat_map(|dof| [(dof, 0), (dof + 1, 1)])
+        .collect()
 }

@@ -320,11 +320,18 @@ fn place<const W: usize>(blocks: &[Block<W>], environment: usize) -> (&Block<W>,
     (&blocks[environment / W], environment % W)
 }
 
-fn place_mut<const W: usize>(blocks: &mut [Block<W>], environment: usize) -> (&mut Block<W>, usize) {
+fn place_mut<const W: usize>(
+    blocks: &mut [Block<W>],
+    environment: usize,
+) -> (&mut Block<W>, usize) {
     (&mut blocks[environment / W], environment % W)
 }
 
-fn for_each<B: Send>(pool: Option<&rayon::ThreadPool>, blocks: &mut [B], work: impl Fn(&mut B) + Sync) {
+fn for_each<B: Send>(
+    pool: Option<&rayon::ThreadPool>,
+    blocks: &mut [B],
+    work: impl Fn(&mut B) + Sync,
+) {
     match pool {
         None => blocks.iter_mut().for_each(work),
         Some(pool) => pool.install(|| blocks.par_chunks_mut(1).for_each(|one| work(&mut one[0]))),
@@ -355,7 +362,8 @@ fn control_step<const W: usize>(
         }
         Some(pool) => pool.install(|| {
             let rows = output.observation.par_chunks_mut(W * width);
-            let rows = rows.zip(output.progress_m.par_chunks_mut(W)).zip(output.status.par_chunks_mut(W));
+            let rows =
+                rows.zip(output.progress_m.par_chunks_mut(W)).zip(output.status.par_chunks_mut(W));
             blocks.par_chunks_mut(1).zip(rows).enumerate().for_each(|(index, (block, rows))| {
                 work(index * W, &mut block[0], BlockOutput::new(rows));
             });
@@ -370,7 +378,9 @@ struct BlockOutput<'a> {
 }
 
 impl<'a> BlockOutput<'a> {
-    fn new(((observation, progress_m), status): ((&'a mut [f32], &'a mut [f64]), &'a mut [u8])) -> Self {
+    fn new(
+        ((observation, progress_m), status): ((&'a mut [f32], &'a mut [f64]), &'a mut [u8]),
+    ) -> Self {
         Self { observation, progress_m, status }
     }
 }

@@ -227,10 +227,7 @@ impl<const W: usize> Block<W> {
                 let dof = model.coordinates.bodies[body];
                 let arm = f64::from(side) * model.half_magnet_m;
                 let angle = self.q[dof + 2][lane];
-                [
-                    self.q[dof][lane] + arm * angle.cos(),
-                    self.q[dof + 1][lane] + arm * angle.sin(),
-                ]
+                [self.q[dof][lane] + arm * angle.cos(), self.q[dof + 1][lane] + arm * angle.sin()]
             }
             Anchor::Fixed => [self.held[2 * node][lane], self.held[2 * node + 1][lane]],
         }
@@ -253,7 +250,8 @@ impl<const W: usize> Block<W> {
         let magnets = model.magnets();
         if magnets == 0 {
             let nodes = model.nodes();
-            return (0..nodes).map(|n| self.node_position(model, n, lane)[0]).sum::<f64>() / nodes as f64;
+            return (0..nodes).map(|n| self.node_position(model, n, lane)[0]).sum::<f64>()
+                / nodes as f64;
         }
         model.coordinates.bodies.iter().map(|&dof| self.q[dof][lane]).sum::<f64>() / magnets as f64
     }

@@ -64,7 +64,8 @@ impl Batch {
         if found != self.count() as u64 {
             return Err(SnapshotError::Count { found, expected: self.count() as u64 });
         }
-        if number(&bytes[24..]) != fingerprint(self.model()) || number(&bytes[16..]) != size as u64 {
+        if number(&bytes[24..]) != fingerprint(self.model()) || number(&bytes[16..]) != size as u64
+        {
             return Err(SnapshotError::Scene);
         }
         if bytes.len() != HEADER + self.count() * size {

@@ -29,16 +29,12 @@ fn uniform(count: usize, seed: u64) -> Vec<f64> {
 const COUNT: usize = 1 << 20;
 
 fn worst(values: impl Iterator<Item = (f64, f64)>) -> f64 {
-    values
-        .map(|(value, exact)| ulp(value, exact))
-        .fold(0.0, f64::max)
+    values.map(|(value, exact)| ulp(value, exact)).fold(0.0, f64::max)
 }
 
 #[test]
 fn ln_is_within_one_and_a_half_ulp() {
-    let wide = uniform(COUNT, 1)
-        .into_iter()
-        .map(|u| (1400.0 * (u - 0.5)).exp());
+    let wide = uniform(COUNT, 1).into_iter().map(|u| (1400.0 * (u - 0.5)).exp());
     let near_one = uniform(COUNT, 2).into_iter().map(|u| 0.5 + 1.5 * u);
     let error = worst(wide.chain(near_one).map(|x| (ln(x), x.ln())));
     println!("ln: {error:.2} ulp");
@@ -68,9 +64,7 @@ fn arctangents_are_within_two_and_a_half_ulp() {
         let r = (100.0 * (size - 0.5)).exp();
         (atan2(r * s, r * c), (r * s).atan2(r * c))
     }));
-    let slopes = uniform(COUNT, 7)
-        .into_iter()
-        .map(|u| (80.0 * (u - 0.5)).exp());
+    let slopes = uniform(COUNT, 7).into_iter().map(|u| (80.0 * (u - 0.5)).exp());
     let single = worst(slopes.flat_map(|x| [(atan(x), x.atan()), (atan(-x), (-x).atan())]));
     println!("atan2: {error:.2} ulp, atan: {single:.2} ulp");
     assert!(error <= 2.5 && single <= 2.5);
@@ -103,10 +97,7 @@ fn sine_and_cosine_are_within_one_and_a_half_ulp() {
     for k in -636..=636 {
         let x = f64::from(k) * std::f64::consts::FRAC_PI_2;
         let (s, c) = sin_cos(x);
-        assert!(
-            ulp(s, x.sin()) <= 1.5 && ulp(c, x.cos()) <= 1.5,
-            "{k} quarter turns"
-        );
+        assert!(ulp(s, x.sin()) <= 1.5 && ulp(c, x.cos()) <= 1.5, "{k} quarter turns");
     }
 }
 
@@ -114,15 +105,7 @@ fn sine_and_cosine_are_within_one_and_a_half_ulp() {
 #[inline(always)]
 fn all<F: Real>(x: F, y: F) -> [F; 7] {
     let (s, c) = sin_cos(y);
-    [
-        ln(x),
-        ln_ratio(x, y.abs()),
-        atan(y),
-        atan2(y, x),
-        atan2(x, y),
-        s,
-        c,
-    ]
+    [ln(x), ln_ratio(x, y.abs()), atan(y), atan2(y, x), atan2(x, y), s, c]
 }
 
 struct Everything<'a>(&'a [[f64; WIDE]], &'a [[f64; WIDE]]);
@@ -149,15 +132,10 @@ impl WideTask for Everything<'_> {
 fn eight_lanes_have_the_bits_of_one() {
     let rows = |seed, f: fn(f64) -> f64| -> Vec<[f64; WIDE]> {
         let samples: Vec<f64> = uniform(1 << 16, seed).into_iter().map(f).collect();
-        samples
-            .chunks_exact(WIDE)
-            .map(|row| row.try_into().unwrap())
-            .collect()
+        samples.chunks_exact(WIDE).map(|row| row.try_into().unwrap()).collect()
     };
     let x = rows(9, |u| (60.0 * (u - 0.5)).exp());
-    let y = rows(10, |u| {
-        (20.0 * (u - 0.65)).exp().copysign(u - 0.4).max(-900.0)
-    });
+    let y = rows(10, |u| (20.0 * (u - 0.65)).exp().copysign(u - 0.4).max(-900.0));
     for (i, wide) in run_wide(Everything(&x, &y)).iter().enumerate() {
         for lane in 0..WIDE {
             for (row, scalar) in wide.iter().zip(all(x[i][lane], y[i][lane])) {
