@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
 
+from magworm_gym import snapshot
 from magworm_gym._magworm import Scene
 from magworm_gym.infos import Infos, info_of
 from magworm_gym.vector_env import MagWormVectorEnv, Observations
@@ -150,6 +151,20 @@ class MagWormVecEnv(VecEnv):
     ) -> list[bool]:
         """True for ``Monitor``, whose statistics of episodes are kept here; nothing else is wrapped."""
         return [issubclass(Monitor, wrapper_class) for _ in self._get_indices(indices)]
+
+    def get_state(self) -> bytes:
+        """Everything that changes in time, statistics of running episodes included."""
+        return snapshot.pack(self._fields())
+
+    def set_state(self, state: bytes) -> None:
+        """Goes on from such a state. Raises ValueError, changing nothing, for one of another scene or N."""
+        fields = snapshot.unpack(state, like=self._fields())
+        self.worms.set_state(fields["worms"].tobytes())
+        self._returns, self._lengths = fields["returns"], fields["lengths"]
+
+    def _fields(self) -> dict[str, NDArray[Any]]:
+        worms = np.frombuffer(self.worms.get_state(), np.uint8)
+        return {"worms": worms, "returns": self._returns, "lengths": self._lengths}
 
     def _reset_one_by_one(self) -> Observations:
         """Resets environments that were given options of their own."""

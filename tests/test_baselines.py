@@ -12,6 +12,7 @@ from magworm_gym.baselines import (
     Shuttle,
     Still,
     Stroke,
+    Tow,
     Trial,
     UniformlyRandom,
     belt_scene,
@@ -22,6 +23,7 @@ from magworm_gym.baselines import (
     stroke_from_unit,
     sweep_belt,
     sweep_shuttle,
+    sweep_tow,
 )
 
 SHORT = Trial(settle_s=0.2, measure_s=0.6)
@@ -145,6 +147,14 @@ def test_missing_search_library_is_named(scene: Scene, monkeypatch: pytest.Monke
     monkeypatch.setitem(sys.modules, "cmaes", None)
     with pytest.raises(ImportError, match=r"magworm-gym\[train\]"):
         search_stroke(scene, 1.0, 0, TINY_SEARCH)
+
+
+def test_tow_holds_its_place(scene: Scene) -> None:
+    curve = sweep_tow(scene, SHORT, starts=1)
+    assert curve.speed_m_s.shape == (33, 4, 1)
+    place, height = curve.best
+    assert curve.speed_m_s[place, height, 0] == curve.speed_m_s.max()
+    np.testing.assert_array_equal(Tow(-0.5, 0.2).act(Batch(scene, 2)), [[-0.5, 0.2, 1.0]] * 2)
 
 
 def test_parked_drive_leaves_the_robot_in_place(scene: Scene) -> None:

@@ -109,6 +109,23 @@ def test_attributes_and_methods() -> None:
     assert env.env_is_wrapped(VecNormalize, indices=0) == [False]  # type: ignore[arg-type]
 
 
+def test_a_state_goes_on_bit_for_bit() -> None:
+    env, other = crawl(), crawl()
+    env.reset()
+    actions = random_actions(9)
+    for rows in actions[:3]:
+        env.step(rows)
+    other.set_state(env.get_state())
+    for rows in actions[3:]:
+        one, two = env.step(rows), other.step(rows)
+        for part in range(3):
+            np.testing.assert_array_equal(one[part], two[part])
+        for done, info, again in zip(one[2], one[3], two[3], strict=True):
+            assert not done or data_equivalence(untimed(info), untimed(again), exact=True)
+    with pytest.raises(ValueError, match="state"):
+        other.set_state(b"noise")
+
+
 def test_frames() -> None:
     pytest.importorskip("PIL")
     env = crawl(render_mode="rgb_array", render_envs=(0, 2))

@@ -183,7 +183,7 @@ def test_comparison_writes_everything_and_keeps_its_stages(
     figures = {"speeds.png", "speed_curves.png", "learning_curves.png", "portraits.png"}
     assert files == {"report.md", "results.json", "race.mp4", "race.gif"} | figures
     results = json.loads((out / "results.json").read_text())
-    assert len(results["speeds"]) == 5 * 5
+    assert len(results["speeds"]) == 6 * 5
     assert {row["robot"] for row in results["speeds"]} == {"intact", *(f"without {i}" for i in range(4))}
     text = (out / "report.md").read_text()
     assert text.count("Limits of the stage: speed 210 mm/s, acceleration 5 m/s²") == 2
@@ -305,12 +305,15 @@ def test_intervals() -> None:
 )
 def test_verdict_says_who_won(learned: float, sentence: str) -> None:
     speeds = {"learned policy": learned, "belt, 125 mm pitch": 0.006, "belt, 170 mm pitch": 0.005}
-    speeds["CMA-ES stroke"] = 0.02
+    speeds |= {"CMA-ES stroke": 0.02, "tow": 0.0001}
     results = [
         Result({"drive": drive}, Interval(speed, speed - 2e-4, speed + 2e-4, 3))
         for drive, speed in speeds.items()
     ]
     assert sentence in verdict(results)
+    assert "Beware" not in verdict(results)
+    results[-1] = Result({"drive": "tow"}, Interval(0.2, 0.2, 0.2, 3))
+    assert "tows it at 200.00 mm/s" in verdict(results)
 
 
 def test_stages_are_kept_by_their_settings(tmp_path: Path) -> None:

@@ -93,6 +93,15 @@ class Comparison:
             lambda: tuning.tuned_shuttle(self.scene, self.budget.sweep, removed),
         )
 
+    def tow(self, removed: Removed) -> dict[str, Any]:
+        """Best place to tow a robot from, and its curve."""
+        return self._tuned(
+            "tow",
+            {"sweep": vars(self.budget.sweep)},
+            removed,
+            lambda: tuning.tuned_tow(self.scene, self.budget.sweep, removed),
+        )
+
     def stroke(self, seed: int, removed: Removed) -> dict[str, Any]:
         """Best stroke that one search found, on this robot or, where robots share it, the whole one."""
         searched = removed if self.budget.search.each_robot else self.whole
@@ -114,6 +123,7 @@ class Comparison:
         decided_by = {**self._common, "removed": removed, "final": vars(self.budget.final)}
         decided_by["tuned"] = [self.belt(pitch, removed)["drive_speed_m_s"] for pitch in PAPER_PITCHES_M]
         decided_by["shuttle"] = _without_curve(self.shuttle(removed))
+        decided_by["tow"] = _without_curve(self.tow(removed))
         decided_by["strokes"] = [_without_curve(stroke) for stroke in self._strokes(removed)]
         decided_by["policies"] = [_without_curve(summary) for summary in self.policies.summaries]
         name = f"final-{self.name(removed).replace(' ', '-')}"
@@ -156,7 +166,7 @@ class Comparison:
         return rivals.learned(self.scene, self.policies.of_seed(seed), self.policies.algorithm)
 
     def _measured(self, removed: Removed) -> list[Row]:
-        shuttle, strokes = self.shuttle(removed), self._strokes(removed)
+        shuttle, tow, strokes = self.shuttle(removed), self.tow(removed), self._strokes(removed)
         learned = [self._policy(number) for number in range(len(self.policies.summaries))]
         open_loops = [rivals.open_loop(self.scene, stroke) for stroke in strokes]
         belts = [
@@ -172,6 +182,7 @@ class Comparison:
             *belts,
             self._row(rivals.shuttle(self.scene, shuttle), removed, self._shuttle_setting(shuttle)),
             self._row_over(open_loops, removed, _stroke_setting(strokes)),
+            self._row(rivals.tow(self.scene, tow), removed, self._tow_setting(tow)),
         ]
 
     def _row(self, rival: Rival, removed: Removed, setting: str) -> Row:
@@ -207,6 +218,13 @@ class Comparison:
             f"{MM_PER_M * shuttle['drive_speed_m_s']:.0f} mm/s, ±{reach_mm * shuttle['half_stroke']:.0f} mm "
             f"about {reach_mm * shuttle['offset']:+.0f} mm, return {returning}"
         )
+
+    def _tow_setting(self, tow: dict[str, Any]) -> str:
+        limits = self.scene.stage_limits or {}
+        low, high = limits["lowest_m"], limits["highest_m"]
+        place_mm = MM_PER_M * limits["reach_m"] * tow["offset"]
+        height_mm = MM_PER_M * (low + 0.5 * (1.0 + tow["height"]) * (high - low))
+        return f"held at {place_mm:+.0f} mm, height {height_mm:.0f} mm"
 
 
 def _without_curve(result: dict[str, Any]) -> dict[str, Any]:

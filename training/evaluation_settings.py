@@ -20,7 +20,7 @@ class SweepBudget:
     Attributes:
         speeds: Drive speeds up to the stage's limit.
         starts: Starts of a belt at each speed.
-        shuttle_starts: Starts of a shuttle at each setting.
+        shuttle_starts: Starts of a shuttle or a tow at each setting.
         settle_s: Time before the speed is measured [s].
         measure_s: Time over which it is measured [s].
     """
@@ -53,8 +53,8 @@ class SearchBudget:
 
     seeds: int = 3
     control_points: int = 6
-    population: int = 32
-    starts: int = 2
+    population: int = 16
+    starts: int = 1
     settle_s: float = 0.5
     measure_s: float = 3.0
     each_robot: bool = False

@@ -24,6 +24,7 @@ COLOURS = {
     "learned policy": "#1c8c7a",
     "CMA-ES stroke": "#c25a1e",
     "shuttle": "#7a5ca8",
+    "tow": "#8a8a8a",
     "belt, 125 mm pitch": "#3b6fb6",
     "belt, 170 mm pitch": "#8fb3dd",
 }

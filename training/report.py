@@ -7,6 +7,8 @@ from comparison import Comparison, Row
 from intervals import Interval, interval
 
 MM_PER_M = 1000.0
+# A tow that reaches this share of the best speed is worth a warning.
+TOWED_SHARE = 0.5
 FIGURES = {
     "speeds.png": "Speeds of all drives with 95 % confidence intervals.",
     "speed_curves.png": "Crawling speed against drive speed of belts and shuttle.",
@@ -82,9 +84,17 @@ def verdict(results: list[Result]) -> str:
     belts = [result for result in results if result.row["drive"].startswith("belt")]
     best_belt = max(belts, key=lambda result: result.speed_m_s.value)
     stroke = _of(results, "CMA-ES stroke")
-    belt_text = _against(learned.speed_m_s, best_belt.speed_m_s, "the best constant-speed belt")
-    stroke_text = _against(learned.speed_m_s, stroke.speed_m_s, "the best open-loop stroke")
-    return f"{belt_text} {stroke_text}"
+    texts = [
+        _against(learned.speed_m_s, best_belt.speed_m_s, "the best constant-speed belt"),
+        _against(learned.speed_m_s, stroke.speed_m_s, "the best open-loop stroke"),
+    ]
+    tow = _of(results, "tow").speed_m_s.value
+    if tow > TOWED_SHARE * max(learned.speed_m_s.value, best_belt.speed_m_s.value):
+        texts.append(
+            f"Beware: a magnet held at one place ahead of the robot tows it at {MM_PER_M * tow:.2f} mm/s, so "
+            "what wins here need not be a gait."
+        )
+    return " ".join(texts)
 
 
 def report(comparison: Comparison, by_robot: dict[str, list[Result]], training_text: str) -> str:

@@ -17,6 +17,7 @@ from magworm_gym.baselines import (
     Recording,
     Shuttle,
     Stroke,
+    Tow,
     Trial,
     belt_scene,
     belt_starts,
@@ -104,6 +105,11 @@ def shuttle(scene: Scene, settings: dict[str, Any]) -> Rival:
     speed = settings["drive_speed_m_s"] / limit
     stroke, offset, low = settings["half_stroke"], settings["offset"], settings["low_return"]
     return Rival("shuttle", scene, lambda: Shuttle(speed, stroke, offset, low))
+
+
+def tow(scene: Scene, settings: dict[str, Any]) -> Rival:
+    """A magnet at a fixed place; ``settings`` as ``tuning.tuned_tow`` gives them."""
+    return Rival("tow", scene, lambda: Tow(settings["offset"], settings["height"]))
 
 
 def open_loop(scene: Scene, settings: dict[str, Any]) -> Rival:

@@ -14,6 +14,7 @@ from magworm_gym.baselines import (
     search_stroke,
     sweep_belt,
     sweep_shuttle,
+    sweep_tow,
 )
 
 
@@ -72,6 +73,24 @@ def tuned_shuttle(scene: Scene, budget: SweepBudget, removed: tuple[int, ...]) -
         "offset": curve.offsets[offset],
         "low_return": bool(low),
         "curve": np.stack([curve.drive_speed_m_s, curve.best_per_drive_speed_m_s], axis=1).tolist(),
+    }
+
+
+def tuned_tow(scene: Scene, budget: SweepBudget, removed: tuple[int, ...]) -> dict[str, Any]:
+    """Sweeps place and height of a magnet that is held still relative to the robot.
+
+    Returns:
+        Best ``offset`` (share of the reach) and ``height`` (-1 lowest, 1 highest), and ``curve``
+        (offset, speed [m/s]) at that height.
+    """
+    present = present_after(scene.magnets, removed)
+    curve = sweep_tow(scene, budget.trial, starts=budget.shuttle_starts, present=present)
+    place, height = curve.best
+    speeds = curve.speed_m_s[:, height].mean(axis=-1)
+    return {
+        "offset": float(curve.offsets[place]),
+        "height": float(curve.heights[height]),
+        "curve": np.stack([curve.offsets, speeds], axis=1).tolist(),
     }
 
 

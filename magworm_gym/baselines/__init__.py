@@ -3,6 +3,7 @@
 * ``sweep_belt``: the paper's belt of magnets at constant speed.
 * ``sweep_shuttle``, ``Shuttle``: one magnet to and fro under the robot.
 * ``search_stroke``, ``PeriodicStrokes``: the best periodic stroke that CMA-ES finds.
+* ``sweep_tow``, ``Tow``: a magnet held at a fixed place, which tows the robot if it is too strong.
 * ``Still``, ``UniformlyRandom``: no drive, and noise.
 """
 
@@ -12,6 +13,7 @@ from magworm_gym.baselines.recording import Recording
 from magworm_gym.baselines.search import SearchResult, SearchSettings, search_stroke
 from magworm_gym.baselines.shuttle import Shuttle, ShuttleCurve, sweep_shuttle
 from magworm_gym.baselines.stroke import PeriodicStrokes, Stroke, stroke_from_unit
+from magworm_gym.baselines.tow import Tow, TowCurve, sweep_tow
 from magworm_gym.baselines.trial import Trial, centre_x_m, crawl_speed_m_s, record
 
 __all__ = [
@@ -26,6 +28,8 @@ __all__ = [
     "ShuttleCurve",
     "Still",
     "Stroke",
+    "Tow",
+    "TowCurve",
     "Trial",
     "UniformlyRandom",
     "belt_scene",
@@ -37,4 +41,5 @@ __all__ = [
     "stroke_from_unit",
     "sweep_belt",
     "sweep_shuttle",
+    "sweep_tow",
 ]

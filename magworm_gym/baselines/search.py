@@ -29,8 +29,8 @@ class SearchSettings:
     """
 
     control_points: int = 6
-    population: int = 32
-    starts: int = 2
+    population: int = 16
+    starts: int = 1
     trial: Trial = field(default_factory=lambda: Trial(settle_s=0.5, measure_s=3.0))
 
     @property

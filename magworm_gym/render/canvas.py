@@ -6,13 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
 
 from magworm_gym.render.palette import Colour
-
-try:
-    from PIL import Image, ImageDraw, ImageFont
-except ImportError as error:
-    raise ImportError("Drawing needs Pillow: pip install 'magworm-gym[render]'.") from error
 
 SUPERSAMPLING = 3
 MARGIN_PX = 3.0

@@ -45,15 +45,19 @@ def band(
 
     Args:
         nodes: Centre line (K, 2).
-        thickness: Full thickness at each node (K,), in the unit of ``nodes``.
+        thickness: Full thickness at each node (K,), or along each of the edges (K - 1,), in the unit
+            of ``nodes``.
         share: Draws a band of this share of the thickness inside the full one.
 
     Returns:
         Outline (P, 2) in the unit of ``nodes``.
     """
     line = refinement_matrix(len(nodes)) @ nodes
-    places = np.linspace(0.0, len(nodes) - 1.0, len(line))
-    half = 0.5 * share * np.interp(places, np.arange(len(nodes)), thickness)
+    if len(thickness) == len(nodes):
+        places = np.linspace(0.0, len(nodes) - 1.0, len(line))
+        half = 0.5 * share * np.interp(places, np.arange(len(nodes)), thickness)
+    else:
+        half = 0.5 * share * np.append(np.repeat(thickness, REFINEMENT), thickness[-1])
     tangents = np.gradient(line, axis=0)
     tangents /= np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-12)
     normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1)

@@ -45,7 +45,8 @@ class SideView:
     Red is a magnetic north pole, blue a south pole; a removed magnet is an empty outline.
 
     Args:
-        geometry: ``Scene.geometry``: ``node_thickness_m`` (K,), ``magnet_size_m`` (length, height),
+        geometry: ``Scene.geometry``: ``node_thickness_m`` (K,), ``element_thickness_m`` (K - 1,; may be
+            left out), ``magnet_size_m`` (length, height),
             ``polarity`` (M,), positive for north up at rest, ``drive_size_m`` (length, height),
             ``ground``, ``incline_deg``.
         width: Width of a frame [pixels].
@@ -70,7 +71,8 @@ class SideView:
     ) -> None:
         self.width = width
         self.height = height
-        self._thickness = np.asarray(geometry["node_thickness_m"], dtype=np.float64)
+        sections = geometry.get("element_thickness_m", geometry["node_thickness_m"])
+        self._thickness = np.asarray(sections, dtype=np.float64)
         self._magnet_size = tuple(geometry["magnet_size_m"])
         self._polarity = np.asarray(geometry["polarity"], dtype=np.float64)
         self._drive_size = tuple(geometry["drive_size_m"])
@@ -184,8 +186,9 @@ class SideView:
     def _draw_rubber(self, region: Region, camera: Camera, nodes: Floats, body: Floats) -> None:
         centre_line = camera.pixels(nodes)
         thickness = self._thickness * camera.pixels_per_m
-        region.polygon(body, RUBBER, RUBBER_EDGE, edge_px=1.3)
+        region.polygon(body, RUBBER)
         region.polygon(band(centre_line, thickness, share=0.45), RUBBER_LIGHT)
+        region.polygon(body, None, RUBBER_EDGE, edge_px=1.3)
         _draw_eye(region, centre_line, thickness[0])
 
     def _draw_text(self, canvas: Canvas, text: str | None) -> None:

@@ -139,10 +139,10 @@ fn move_drive<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Bloc
     let Some(drive) = &model.program.drive else { return };
     let time = (isa.load(&block.step_count[0]) + 1.0) * model.step_s;
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    let stage = [0, 1, 2, 3].map(|k| isa.load(&block.stage[k]));
+    let stage = load_all(isa, &block.stage, [0, 1, 2, 3]);
     let moved = match &drive.path {
         Path::Controlled(limits) => {
-            let [x, y, limit] = [0, 1, 2].map(|k| isa.load(&block.target[k]));
+            let [x, y, limit, _] = load_all(isa, &block.target, [0, 1, 2, 2]);
             let (x, vx) = limits.advance(stage[0], stage[2], x, limit, model.step_s);
             let (y, vy) = limits.advance(stage[1], stage[3], y, limit, model.step_s);
             [x, y, vx, vy]
@@ -176,7 +176,13 @@ fn follow<const W: usize, I: Isa<W>>(
         rows[2][lane] = velocity[0];
         rows[3][lane] = velocity[1];
     }
-    rows.map(|row| isa.load(&row))
+    load_all(isa, &rows, [0, 1, 2, 3])
+}
+
+/// Rows as vectors. Not `map`: closures of the standard library are not compiled for the lanes.
+#[inline(always)]
+fn load_all<const W: usize, I: Isa<W>>(isa: I, rows: &[[f64; W]], k: [usize; 4]) -> [I::F; 4] {
+    [isa.load(&rows[k[0]]), isa.load(&rows[k[1]]), isa.load(&rows[k[2]]), isa.load(&rows[k[3]])]
 }
 
 /// x of the robot's centre: mean of its magnets.

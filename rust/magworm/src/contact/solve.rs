@@ -3,7 +3,7 @@
 //! Each pass assumes a mode for every contact, solves, and checks the assumption: a closed point
 //! that would pull opens, an open one that would sink closes, a sticking one beyond μ_s λ_n + D_f Δt
 //! slides, a sliding one whose velocity reverses sticks. The normal impulse that friction reckons with
-//! is that of the pass before; both are iterated until nothing changes. Lanes that are done are
+//! is extrapolated from the passes before; both are iterated until nothing changes. Lanes that are done are
 //! frozen, so the passes a neighbour still needs do not touch their bits.
 
 use super::{Mode, SLOTS};
@@ -96,13 +96,16 @@ fn assemble_matrix<const W: usize, I: Isa<W>>(
 ) {
     block.factor.copy_from_slice(&block.matrix);
     let zero = isa.splat(0.0);
+    let mut row = [zero; SLOTS];
     for (c, contact) in model.contacts.iter().enumerate() {
         let mode = isa.load(&block.mode[c]);
         let closed = I::F::select(mode.eq(isa.splat(Mode::OPEN)), zero, ground.weight);
         let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
-        for (direction, weight) in [closed, stuck].into_iter().enumerate() {
-            let row = jacobian(isa, block, c, direction);
-            add_rank_one(isa, &model.band, &mut block.factor, &contact.stencil, &row, weight);
+        let weights = [closed, stuck];
+        for direction in 0..2 {
+            jacobian(isa, block, c, direction, &mut row);
+            let weight = weights[direction];
+            add_rank_one(isa, &mut block.factor, &contact.stencil, &row, weight);
         }
     }
 }
@@ -116,6 +119,7 @@ fn assemble_right<const W: usize, I: Isa<W>>(
 ) {
     block.solution.copy_from_slice(&block.right);
     let zero = isa.splat(0.0);
+    let mut row = [zero; SLOTS];
     for (c, contact) in model.contacts.iter().enumerate() {
         let mode = isa.load(&block.mode[c]);
         let open = mode.eq(isa.splat(Mode::OPEN));
@@ -124,9 +128,10 @@ fn assemble_right<const W: usize, I: Isa<W>>(
         let friction = ground.dynamic_friction * isa.load(&block.reckoned[c]) + ground.adhesion;
         let sliding =
             I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
-        let impulses = [held, sliding].map(|x| I::F::select(open, zero, x));
-        for (direction, impulse) in impulses.into_iter().enumerate() {
-            let row = jacobian(isa, block, c, direction);
+        let impulses = [I::F::select(open, zero, held), I::F::select(open, zero, sliding)];
+        for direction in 0..2 {
+            jacobian(isa, block, c, direction, &mut row);
+            let impulse = impulses[direction];
             add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
         }
     }
@@ -138,17 +143,26 @@ fn jacobian<const W: usize, I: Isa<W>>(
     block: &Block<W>,
     contact: usize,
     direction: usize,
-) -> [I::F; SLOTS] {
+    row: &mut [I::F; SLOTS],
+) {
     let first = SLOTS * (2 * contact + direction);
-    std::array::from_fn(|slot| isa.load(&block.jacobian[first + slot]))
+    let rows = &block.jacobian[first..first + SLOTS];
+    for slot in 0..SLOTS {
+        row[slot] = isa.load(&rows[slot]);
+    }
+}
+
+/// Writes the lanes that are not done.
+#[inline(always)]
+fn store_unless<const W: usize, I: Isa<W>>(isa: I, done: I::M, new: I::F, row: &mut [f64; W]) {
+    isa.store(I::F::select(done, isa.load(row), new), row);
 }
 
 /// Takes the solution over in lanes that are not done.
 #[inline(always)]
 fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
     for row in 0..block.solution.len() {
-        let (new, old) = (isa.load(&block.solution[row]), isa.load(&block.next[row]));
-        isa.store(I::F::select(done, old, new), &mut block.next[row]);
+        store_unless(isa, done, isa.load(&block.solution[row]), &mut block.next[row]);
     }
 }
 
@@ -164,9 +178,10 @@ fn update_modes<const W: usize, I: Isa<W>>(
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
     let mut change = Change { modes: never, impulses: never };
+    let (mut normal_row, mut tangential_row) = ([zero; SLOTS], [zero; SLOTS]);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let normal_row = jacobian(isa, block, c, 0);
-        let tangential_row = jacobian(isa, block, c, 1);
+        jacobian(isa, block, c, 0, &mut normal_row);
+        jacobian(isa, block, c, 1, &mut tangential_row);
         let u_n =
             rate(isa, &block.next, &contact.stencil, &normal_row) + isa.load(&block.approach[c]);
         let u_t = rate(isa, &block.next, &contact.stencil, &tangential_row);
@@ -186,13 +201,37 @@ fn update_modes<const W: usize, I: Isa<W>>(
         let unsettled = sliding & drift.gt(after.normal * SETTLED + ground.negligible);
         change.modes = change.modes | (moved & !done);
         change.impulses = change.impulses | (unsettled & !done);
-        let keep = |new: I::F, old: &[f64; W]| I::F::select(done, isa.load(old), new);
-        isa.store(keep(after.mode, &block.mode[c]), &mut block.mode[c]);
-        isa.store(keep(after.normal, &block.normal[c]), &mut block.normal[c]);
-        isa.store(keep(after.tangential, &block.tangential[c]), &mut block.tangential[c]);
-        isa.store(keep(after.normal, &block.reckoned[c]), &mut block.reckoned[c]);
+        store_unless(isa, done, after.mode, &mut block.mode[c]);
+        store_unless(isa, done, after.normal, &mut block.normal[c]);
+        store_unless(isa, done, after.tangential, &mut block.tangential[c]);
+        let next = extrapolate(isa, block, c, point.reckoned, after.normal);
+        store_unless(isa, done, next, &mut block.reckoned[c]);
     }
     change
+}
+
+/// The normal impulse to reckon with in the next pass.
+///
+/// For fixed modes the impulse found is linear in the impulse reckoned with, so a secant through
+/// two passes finds where both agree (Aitken's Δ²). Where the secant is steep or unknown, the impulse
+/// found is taken.
+#[inline(always)]
+fn extrapolate<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &mut Block<W>,
+    c: usize,
+    reckoned: I::F,
+    found: I::F,
+) -> I::F {
+    let earlier_reckoned = isa.load(&block.earlier[2 * c]);
+    let earlier_found = isa.load(&block.earlier[2 * c + 1]);
+    isa.store(reckoned, &mut block.earlier[2 * c]);
+    isa.store(found, &mut block.earlier[2 * c + 1]);
+    let run = reckoned - earlier_reckoned;
+    let rise = found - earlier_found;
+    let gentle = rise.abs().lt(run.abs() * 0.8);
+    let agreed = found + (found - reckoned) * rise / I::F::select(gentle, run - rise, isa.splat(1.0));
+    I::F::select(gentle & agreed.gt(isa.splat(0.0)), agreed, found)
 }
 
 /// A contact point after a pass, under the mode it was assumed in.

@@ -5,8 +5,8 @@
 //! ∂θ/∂e = n/|e|, so ∂κ/∂e = −(1 + κ²/4) n_e/|e| and ∂κ/∂f = (1 + κ²/4) n_f/|f|, n = ẑ × t: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
-use super::{Scheme, add_spring, gather};
-use crate::lanes::Isa;
+use super::{Equations, MOST, Places, Scheme, Spring, gather};
+use crate::lanes::{Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
 
@@ -18,27 +18,31 @@ pub fn assemble<const W: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
+    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
+    let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
+    let places = Places { node: &block.node, q: &block.q };
+    let mut equations = Equations { matrix, right, v };
+    let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.bend {
         let (e, f) = (spring.node - 1, spring.node);
-        let te = [isa.load(&block.tangent[2 * e]), isa.load(&block.tangent[2 * e + 1])];
-        let tf = [isa.load(&block.tangent[2 * f]), isa.load(&block.tangent[2 * f + 1])];
+        let te = [isa.load(&tangent[2 * e]), isa.load(&tangent[2 * e + 1])];
+        let tf = [isa.load(&tangent[2 * f]), isa.load(&tangent[2 * f + 1])];
         let cross = te[0] * tf[1] - te[1] * tf[0];
         let dot = te[0] * tf[0] + te[1] * tf[1];
-        let curvature = (cross * 2.0) / (dot + 1.0);
-        let steepness = curvature * curvature * 0.25 + 1.0;
-        let over_e = steepness * isa.load(&block.inverse_length[e]);
-        let over_f = steepness * isa.load(&block.inverse_length[f]);
+        let strain = (cross * 2.0) / (dot + 1.0);
+        let steepness = strain * strain * 0.25 + 1.0;
+        let over_e = steepness * isa.load(&inverse_length[e]);
+        let over_f = steepness * isa.load(&inverse_length[f]);
         // ∂κ/∂e and ∂κ/∂f.
         let de = [te[1] * over_e, -(te[0] * over_e)];
         let df = [-(tf[1] * over_f), tf[0] * over_f];
-        let gradient = gather(
-            isa,
-            model,
-            block,
-            &spring.stencil,
-            [de.map(|x| -x), [de[0] - df[0], de[1] - df[1]], df],
-        );
+        let over_nodes = [[-de[0], -de[1]], [de[0] - df[0], de[1] - df[1]], df];
+        gather(isa, places, &spring.stencil, &over_nodes, &mut gradient);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
-        add_spring(isa, model, block, &spring.stencil, &gradient, curvature, stiffness, scheme);
+        Spring { stencil: &spring.stencil, gradient: &gradient, strain, stiffness }.add(
+            isa,
+            &mut equations,
+            scheme,
+        );
     }
 }

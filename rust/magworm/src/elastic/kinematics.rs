@@ -15,33 +15,35 @@ pub fn update<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Bloc
 
 #[inline(always)]
 fn frames<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let (q, frame) = (&*block.q, &mut *block.frame);
     for (body, dof) in model.coordinates.bodies.iter().enumerate() {
-        let (sin, cos) = sin_cos(isa.load(&block.q[dof + 2]));
-        isa.store(cos, &mut block.frame[2 * body]);
-        isa.store(sin, &mut block.frame[2 * body + 1]);
+        let (sin, cos) = sin_cos(isa.load(&q[dof + 2]));
+        isa.store(cos, &mut frame[2 * body]);
+        isa.store(sin, &mut frame[2 * body + 1]);
     }
 }
 
 #[inline(always)]
 fn nodes<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let (q, frame, held) = (&*block.q, &*block.frame, &*block.held);
+    let places = &mut *block.node;
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
         match *anchor {
             Anchor::Free { dof } => {
-                block.node[2 * node] = block.q[dof];
-                block.node[2 * node + 1] = block.q[dof + 1];
+                places[2 * node] = q[dof];
+                places[2 * node + 1] = q[dof + 1];
             }
             Anchor::Rigid { body, side } => {
                 let dof = model.coordinates.bodies[body];
                 let arm = f64::from(side) * model.half_magnet_m;
                 for k in 0..2 {
-                    let place =
-                        isa.load(&block.q[dof + k]) + isa.load(&block.frame[2 * body + k]) * arm;
-                    isa.store(place, &mut block.node[2 * node + k]);
+                    let place = isa.load(&q[dof + k]) + isa.load(&frame[2 * body + k]) * arm;
+                    isa.store(place, &mut places[2 * node + k]);
                 }
             }
             Anchor::Fixed => {
-                block.node[2 * node] = block.held[2 * node];
-                block.node[2 * node + 1] = block.held[2 * node + 1];
+                places[2 * node] = held[2 * node];
+                places[2 * node + 1] = held[2 * node + 1];
             }
         }
     }
@@ -49,16 +51,19 @@ fn nodes<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>)
 
 #[inline(always)]
 fn elements<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let node = &*block.node;
+    let (tangent, lengths, inverses) =
+        (&mut *block.tangent, &mut *block.length, &mut *block.inverse_length);
     let one = isa.splat(1.0);
     for element in 0..model.mesh.elements.len() {
-        let edge = [0, 1].map(|k| {
-            isa.load(&block.node[2 * element + 2 + k]) - isa.load(&block.node[2 * element + k])
-        });
-        let length = (edge[0] * edge[0] + edge[1] * edge[1]).sqrt();
+        let (head, tail) = (2 * element, 2 * element + 2);
+        let x = isa.load(&node[tail]) - isa.load(&node[head]);
+        let y = isa.load(&node[tail + 1]) - isa.load(&node[head + 1]);
+        let length = (x * x + y * y).sqrt();
         let inverse = one / length;
-        isa.store(edge[0] * inverse, &mut block.tangent[2 * element]);
-        isa.store(edge[1] * inverse, &mut block.tangent[2 * element + 1]);
-        isa.store(length, &mut block.length[element]);
-        isa.store(inverse, &mut block.inverse_length[element]);
+        isa.store(x * inverse, &mut tangent[2 * element]);
+        isa.store(y * inverse, &mut tangent[2 * element + 1]);
+        isa.store(length, &mut lengths[element]);
+        isa.store(inverse, &mut inverses[element]);
     }
 }

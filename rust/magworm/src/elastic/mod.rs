@@ -17,9 +17,7 @@ pub use kinematics::update as kinematics;
 pub use stretch::assemble as stretch;
 
 use crate::lanes::Isa;
-use crate::lanes::banded::Band;
-use crate::model::{Model, Stencil};
-use crate::state::Block;
+use crate::model::Stencil;
 
 /// Most unknowns in one stencil: three nodes, each on a magnet of its own.
 const MOST: usize = 9;
@@ -37,52 +35,106 @@ pub struct Scheme<F> {
     pub implicit: bool,
 }
 
-/// Gradient over a stencil's unknowns from gradients over its nodes.
+/// Node positions and unknowns, for gradients over rigid nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Places<'a, const W: usize> {
+    /// Node positions [m], shape [nodes × 2].
+    pub node: &'a [[f64; W]],
+    /// Unknowns [m, rad], shape [unknowns].
+    pub q: &'a [[f64; W]],
+}
+
+/// Left-hand and right-hand side of a step's equations.
+#[derive(Debug)]
+pub struct Equations<'a, const W: usize> {
+    /// Banded matrix.
+    pub matrix: &'a mut [[f64; W]],
+    /// Right-hand side, shape [unknowns].
+    pub right: &'a mut [[f64; W]],
+    /// Velocities at the start of the step, shape [unknowns].
+    pub v: &'a [[f64; W]],
+}
+
+/// Gradient over a stencil's unknowns from gradients over its nodes, into `out`: an array that is
+/// returned would be copied.
 ///
 /// A rigid node at arm a from its magnet moves with δx = δX + δθ ẑ × a, hence g_θ = a × g.
 #[inline(always)]
 pub fn gather<const W: usize, I: Isa<W>, const N: usize>(
     isa: I,
-    model: &Model,
-    block: &Block<W>,
+    places: Places<'_, W>,
     stencil: &Stencil,
-    gradient: [[I::F; 2]; N],
-) -> [I::F; MOST] {
-    let mut out = [isa.splat(0.0); MOST];
-    for (k, [gx, gy]) in gradient.into_iter().enumerate() {
+    gradient: &[[I::F; 2]; N],
+    out: &mut [I::F; MOST],
+) {
+    *out = [isa.splat(0.0); MOST];
+    for k in 0..N {
         if !stencil.moves[k] {
             continue;
         }
+        let [gx, gy] = gradient[k];
         let slot = stencil.slots[k];
         out[slot] = out[slot] + gx;
         out[slot + 1] = out[slot + 1] + gy;
-        if let Some(body) = stencil.body[k] {
-            let dof = model.coordinates.bodies[body];
-            let node = stencil.nodes[k];
-            let ax = isa.load(&block.node[2 * node]) - isa.load(&block.q[dof]);
-            let ay = isa.load(&block.node[2 * node + 1]) - isa.load(&block.q[dof + 1]);
+        if stencil.body[k].is_some() {
+            let (dof, node) = (stencil.body_dofs[k], stencil.nodes[k]);
+            let ax = isa.load(&places.node[2 * node]) - isa.load(&places.q[dof]);
+            let ay = isa.load(&places.node[2 * node + 1]) - isa.load(&places.q[dof + 1]);
             out[slot + 2] = out[slot + 2] + (ax * gy - ay * gx);
         }
     }
-    out
 }
 
 /// Adds `weight` · g gᵀ to a banded matrix.
 #[inline(always)]
 pub fn add_rank_one<const W: usize, I: Isa<W>>(
     isa: I,
-    band: &Band,
     matrix: &mut [[f64; W]],
     stencil: &Stencil,
     gradient: &[I::F],
     weight: I::F,
 ) {
-    for row in 0..stencil.count {
-        let scaled = gradient[row] * weight;
-        for column in 0..=row {
-            let entry = &mut matrix[band.at(stencil.dofs[row], stencil.dofs[column])];
-            isa.store(isa.load(entry) + scaled * gradient[column], entry);
+    // The usual sizes unrolled: free nodes, and nodes next to a magnet.
+    match stencil.count {
+        4 => rank_one::<W, I, 4>(isa, matrix, stencil, gradient, weight),
+        5 => rank_one::<W, I, 5>(isa, matrix, stencil, gradient, weight),
+        6 => rank_one::<W, I, 6>(isa, matrix, stencil, gradient, weight),
+        7 => rank_one::<W, I, 7>(isa, matrix, stencil, gradient, weight),
+        _ => {
+            for row in 0..stencil.count {
+                rank_one_row(isa, matrix, stencil, gradient, weight, row);
+            }
         }
+    }
+}
+
+#[inline(always)]
+fn rank_one<const W: usize, I: Isa<W>, const N: usize>(
+    isa: I,
+    matrix: &mut [[f64; W]],
+    stencil: &Stencil,
+    gradient: &[I::F],
+    weight: I::F,
+) {
+    for row in 0..N {
+        rank_one_row(isa, matrix, stencil, gradient, weight, row);
+    }
+}
+
+#[inline(always)]
+fn rank_one_row<const W: usize, I: Isa<W>>(
+    isa: I,
+    matrix: &mut [[f64; W]],
+    stencil: &Stencil,
+    gradient: &[I::F],
+    weight: I::F,
+    row: usize,
+) {
+    let scaled = gradient[row] * weight;
+    let first = row * (row + 1) / 2;
+    for column in 0..=row {
+        let entry = &mut matrix[stencil.entries[first + column]];
+        isa.store(isa.load(entry) + scaled * gradient[column], entry);
     }
 }
 
@@ -116,26 +168,34 @@ pub fn rate<const W: usize, I: Isa<W>>(
     sum
 }
 
-/// Adds the impulse of one spring to the equations of a step.
-#[inline(always)]
-fn add_spring<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W>,
-    stencil: &Stencil,
-    gradient: &[I::F],
-    strain: I::F,
-    stiffness: I::F,
-    scheme: Scheme<I::F>,
-) {
-    let dt = scheme.dt;
-    let force = if scheme.implicit {
-        let weight = (scheme.damping_s + dt) * stiffness * dt;
-        add_rank_one(isa, &model.band, &mut block.matrix, stencil, gradient, weight);
-        strain * stiffness
-    } else {
-        let rate = rate(isa, &block.v, stencil, gradient);
-        (strain + rate * scheme.damping_s) * stiffness
-    };
-    add_scaled(isa, &mut block.right, stencil, gradient, -(force * dt));
+/// A spring at the start of the step.
+struct Spring<'a, F> {
+    stencil: &'a Stencil,
+    gradient: &'a [F; MOST],
+    strain: F,
+    stiffness: F,
+}
+
+impl<F> Spring<'_, F> {
+    /// Adds its impulse to the equations of a step.
+    #[inline(always)]
+    fn add<const W: usize, I: Isa<W, F = F>>(
+        &self,
+        isa: I,
+        equations: &mut Equations<'_, W>,
+        scheme: Scheme<F>,
+    ) where
+        F: crate::lanes::Real<Mask = I::M>,
+    {
+        let dt = scheme.dt;
+        let force = if scheme.implicit {
+            let weight = (scheme.damping_s + dt) * self.stiffness * dt;
+            add_rank_one(isa, equations.matrix, self.stencil, self.gradient, weight);
+            self.strain * self.stiffness
+        } else {
+            let rate = rate(isa, equations.v, self.stencil, self.gradient);
+            (self.strain + rate * scheme.damping_s) * self.stiffness
+        };
+        add_scaled(isa, equations.right, self.stencil, self.gradient, -(force * dt));
+    }
 }

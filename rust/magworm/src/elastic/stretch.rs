@@ -4,7 +4,7 @@
 //! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ in the plane and is taken along
 //! implicitly. In compression it would be negative and is left out of the matrix.
 
-use super::{Scheme, add_rank_one, add_spring, gather};
+use super::{Equations, MOST, Places, Scheme, Spring, add_rank_one, gather};
 use crate::lanes::{Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
@@ -17,18 +17,29 @@ pub fn assemble<const W: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
+    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
+    let (tangent, length, inverse_length) =
+        (&*block.tangent, &*block.length, &*block.inverse_length);
+    let places = Places { node: &block.node, q: &block.q };
+    let mut equations = Equations { matrix, right, v };
+    let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.stretch {
         let e = spring.element;
-        let t = [isa.load(&block.tangent[2 * e]), isa.load(&block.tangent[2 * e + 1])];
+        let t = [isa.load(&tangent[2 * e]), isa.load(&tangent[2 * e + 1])];
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
-        let elongation = isa.load(&block.length[e]) - spring.rest_m;
-        let gradient = gather(isa, model, block, &spring.stencil, [t.map(|x| -x), t]);
-        add_spring(isa, model, block, &spring.stencil, &gradient, elongation, stiffness, scheme);
+        let strain = isa.load(&length[e]) - spring.rest_m;
+        gather(isa, places, &spring.stencil, &[[-t[0], -t[1]], t], &mut gradient);
+        Spring { stencil: &spring.stencil, gradient: &gradient, strain, stiffness }.add(
+            isa,
+            &mut equations,
+            scheme,
+        );
         if scheme.implicit {
-            let across = gather(isa, model, block, &spring.stencil, [[t[1], -t[0]], [-t[1], t[0]]]);
-            let tension = elongation.max(isa.splat(0.0)) * stiffness;
-            let weight = tension * isa.load(&block.inverse_length[e]) * (scheme.dt * scheme.dt);
-            add_rank_one(isa, &model.band, &mut block.matrix, &spring.stencil, &across, weight);
+            let across = [[t[1], -t[0]], [-t[1], t[0]]];
+            gather(isa, places, &spring.stencil, &across, &mut gradient);
+            let tension = strain.max(isa.splat(0.0)) * stiffness;
+            let weight = tension * isa.load(&inverse_length[e]) * (scheme.dt * scheme.dt);
+            add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, weight);
         }
     }
 }

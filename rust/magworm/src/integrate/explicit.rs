@@ -35,7 +35,10 @@ fn constrain<const W: usize, I: Isa<W>>(
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
     let reach = f64::from(tie.side) * model.half_magnet_m;
-    let arm = [0, 1].map(|k| isa.load(&block.frame[2 * tie.body + k]) * reach);
+    let arm = [
+        isa.load(&block.frame[2 * tie.body]) * reach,
+        isa.load(&block.frame[2 * tie.body + 1]) * reach,
+    ];
     // ∂(X + R r)/∂θ = ẑ × arm.
     let turn = [-arm[1], arm[0]];
     for k in 0..2 {

@@ -33,9 +33,9 @@ pub fn magnets<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
             let torque = uniform_torque(isa, field.field_t, block, body);
             wrench[2] = wrench[2] + torque * field.moment_per_tesla;
         }
-        for (k, component) in wrench.into_iter().enumerate() {
+        for k in 0..3 {
             let entry = &mut block.right[dof + k];
-            isa.store(isa.load(entry) + component * model.step_s, entry);
+            isa.store(isa.load(entry) + wrench[k] * model.step_s, entry);
         }
     }
 }

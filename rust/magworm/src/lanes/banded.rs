@@ -1,35 +1,42 @@
 //! Symmetric banded systems, factored as L D Lᵀ without pivoting, one system per lane.
 //!
-//! A matrix is stored by rows of its lower half: row r holds columns r − h … r (h the half-bandwidth),
-//! entries left of the first non-zero column of a row are never touched.
+//! A matrix is stored by rows of its lower half: row r holds columns r − h … r, h the half-bandwidth.
+//! Above the first and below the last row stand h ghost rows of zeros, so that no loop has to know where
+//! the matrix ends. The half-bandwidth is one of three, known when the kernels are compiled: inner
+//! loops unroll and their numbers stay in registers.
 
 use super::Isa;
+
+/// Half-bandwidths that kernels are compiled for: rods, worms, and magnets next to each other.
+const COMPILED: [usize; 3] = [5, 6, 8];
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Band {
-    first: Vec<usize>,
+    size: usize,
     half_bandwidth: usize,
 }
 
 impl Band {
     /// The shape of a diagonal matrix with `size` rows.
     pub fn diagonal(size: usize) -> Self {
-        Self { first: (0..size).collect(), half_bandwidth: 0 }
+        Self { size, half_bandwidth: COMPILED[0] }
     }
 
     /// Makes room for entries between all pairs of the given unknowns.
+    ///
+    /// # Panics
+    /// If two of them are more than eight apart: no stencil reaches further.
     pub fn couple(&mut self, dofs: &[usize]) {
-        let Some(&lowest) = dofs.iter().min() else { return };
-        for &row in dofs {
-            self.first[row] = self.first[row].min(lowest);
-            self.half_bandwidth = self.half_bandwidth.max(row - self.first[row]);
-        }
+        let (Some(lowest), Some(highest)) = (dofs.iter().min(), dofs.iter().max()) else { return };
+        let needed = self.half_bandwidth.max(highest - lowest);
+        let compiled = COMPILED.into_iter().find(|&h| h >= needed);
+        self.half_bandwidth = compiled.expect("a stencil reaches no further than eight unknowns");
     }
 
     /// Number of rows.
     pub fn size(&self) -> usize {
-        self.first.len()
+        self.size
     }
 
     /// Largest distance of an entry from the diagonal.
@@ -37,40 +44,25 @@ impl Band {
         self.half_bandwidth
     }
 
-    /// Number of stored entries.
+    /// Number of stored entries, ghost rows included.
     pub fn entries(&self) -> usize {
-        self.size() * (self.half_bandwidth + 1)
+        (self.size + 2 * self.half_bandwidth) * (self.half_bandwidth + 1)
     }
 
     /// Place of entry (row, column), column ≤ row.
     #[inline(always)]
     pub fn at(&self, row: usize, column: usize) -> usize {
-        row * (self.half_bandwidth + 1) + self.half_bandwidth + column - row
+        let h = self.half_bandwidth;
+        (row + h) * (h + 1) + h + column - row
     }
 
     /// Factors in place: strictly lower entries become L, diagonal entries 1/D.
     #[inline(always)]
     pub fn factor<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[f64; W]]) {
-        let one = isa.splat(1.0);
-        for row in 0..self.size() {
-            let first = self.first[row];
-            let mut pivot = isa.load(&matrix[self.at(row, row)]);
-            for column in first..row {
-                // u = L D of this entry; the column's own L was divided by D when it was made.
-                let mut u = isa.load(&matrix[self.at(row, column)]);
-                for k in first.max(self.first[column])..column {
-                    u = u - isa.load(&matrix[self.at(row, k)])
-                        * isa.load(&matrix[self.at(column, k)]);
-                }
-                isa.store(u, &mut matrix[self.at(row, column)]);
-            }
-            for column in first..row {
-                let u = isa.load(&matrix[self.at(row, column)]);
-                let l = u * isa.load(&matrix[self.at(column, column)]);
-                pivot = pivot - u * l;
-                isa.store(l, &mut matrix[self.at(row, column)]);
-            }
-            isa.store(one / pivot, &mut matrix[self.at(row, row)]);
+        match self.half_bandwidth {
+            5 => factor::<W, I, 5, 6>(isa, self.size, matrix),
+            6 => factor::<W, I, 6, 7>(isa, self.size, matrix),
+            _ => factor::<W, I, 8, 9>(isa, self.size, matrix),
         }
     }
 
@@ -82,25 +74,76 @@ impl Band {
         factored: &[[f64; W]],
         right: &mut [[f64; W]],
     ) {
-        for row in 0..self.size() {
-            let mut sum = isa.load(&right[row]);
-            for column in self.first[row]..row {
-                sum = sum - isa.load(&factored[self.at(row, column)]) * isa.load(&right[column]);
+        match self.half_bandwidth {
+            5 => solve::<W, I, 5, 6>(isa, factored, right),
+            6 => solve::<W, I, 6, 7>(isa, factored, right),
+            _ => solve::<W, I, 8, 9>(isa, factored, right),
+        }
+    }
+}
+
+/// Row by row: u = L D of the row's entries from the rows above, then L = u / D.
+#[inline(always)]
+fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    size: usize,
+    matrix: &mut [[f64; W]],
+) {
+    let (rows, _) = matrix.as_chunks_mut::<ROW>();
+    let one = isa.splat(1.0);
+    for row in H..size + H {
+        let (above, below) = rows.split_at_mut(row);
+        let above = &above[row - H..];
+        let current = &mut below[0];
+        let mut pivot = isa.load(&current[H]);
+        let mut u = [one; H];
+        for column in 0..H {
+            let mut sum = isa.load(&current[column]);
+            for k in 0..column {
+                sum = sum - u[k] * isa.load(&above[column][H + k - column]);
             }
-            isa.store(sum, &mut right[row]);
+            u[column] = sum;
         }
-        for row in 0..self.size() {
-            let scaled = isa.load(&right[row]) * isa.load(&factored[self.at(row, row)]);
-            isa.store(scaled, &mut right[row]);
+        for column in 0..H {
+            let l = u[column] * isa.load(&above[column][H]);
+            pivot = pivot - u[column] * l;
+            isa.store(l, &mut current[column]);
         }
-        for row in (0..self.size()).rev() {
-            let known = isa.load(&right[row]);
-            for column in self.first[row]..row {
-                let sum =
-                    isa.load(&right[column]) - isa.load(&factored[self.at(row, column)]) * known;
-                isa.store(sum, &mut right[column]);
-            }
+        isa.store(one / pivot, &mut current[H]);
+    }
+}
+
+/// Forward and backward substitution; the last H unknowns travel along in registers.
+#[inline(always)]
+fn solve<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    factored: &[[f64; W]],
+    right: &mut [[f64; W]],
+) {
+    let (rows, _) = factored.as_chunks::<ROW>();
+    let mut known = [isa.splat(0.0); H];
+    for (row, value) in right.iter_mut().enumerate() {
+        let mut sum = isa.load(value);
+        for k in 0..H {
+            sum = sum - isa.load(&rows[row + H][k]) * known[k];
         }
+        for k in 1..H {
+            known[k - 1] = known[k];
+        }
+        known[H - 1] = sum;
+        isa.store(sum, value);
+    }
+    let mut known = [isa.splat(0.0); H];
+    for (row, value) in right.iter_mut().enumerate().rev() {
+        let mut sum = isa.load(value) * isa.load(&rows[row + H][H]);
+        for k in 0..H {
+            sum = sum - isa.load(&rows[row + H + 1 + k][H - 1 - k]) * known[k];
+        }
+        for k in (1..H).rev() {
+            known[k] = known[k - 1];
+        }
+        known[0] = sum;
+        isa.store(sum, value);
     }
 }
 
@@ -118,10 +161,10 @@ mod tests {
         let mut packed = vec![[0.0]; band.entries()];
         let mut next = numbers.iter().cycle();
         for row in 0..n {
-            for column in band.first[row]..=row {
+            for column in row.saturating_sub(band.half_bandwidth())..=row {
                 let mut value = *next.next().unwrap();
                 if row == column {
-                    value = (8.0 + value) * if row % 5 == 4 { -1.0 } else { 1.0 };
+                    value = (20.0 + value) * if row % 5 == 4 { -1.0 } else { 1.0 };
                 }
                 dense[(row, column)] = value;
                 dense[(column, row)] = value;
@@ -135,17 +178,18 @@ mod tests {
         #[test]
         fn solves_like_a_dense_factorisation(
             numbers in prop::collection::vec(-1.0..1.0f64, 97),
-            couplings in prop::collection::vec((0usize..14, 1usize..5), 0..12),
+            span in 1usize..9,
+            size in 9usize..30,
         ) {
-            let mut band = Band::diagonal(20);
-            couplings.iter().for_each(|&(a, span)| band.couple(&[a, a + span]));
+            let mut band = Band::diagonal(size);
+            band.couple(&[0, span]);
             let (dense, mut packed) = matrices(&band, &numbers);
-            let right = DVector::from_iterator(20, numbers.iter().copied().take(20));
+            let right = DVector::from_iterator(size, numbers.iter().copied().take(size));
             let expected = dense.lu().solve(&right).unwrap();
             let mut solution: Vec<[f64; 1]> = right.iter().map(|&r| [r]).collect();
             band.factor(Scalar, &mut packed);
             band.solve(Scalar, &packed, &mut solution);
-            for row in 0..20 {
+            for row in 0..size {
                 prop_assert!((solution[row][0] - expected[row]).abs() < 1e-12);
             }
         }

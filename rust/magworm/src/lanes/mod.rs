@@ -17,7 +17,7 @@ mod scalar;
 mod wide;
 
 pub use scalar::Scalar;
-pub use wide::{WIDE, Wide, WideTask, run_wide};
+pub use wide::{InstructionSet, WIDE, Wide, WideTask, run_wide, run_wide_on};
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 

@@ -20,10 +20,62 @@ pub trait WideTask {
     fn run<I: Isa<WIDE>>(self, isa: I) -> Self::Output;
 }
 
+/// An instruction set that this processor has. Results do not depend on it.
+#[derive(Clone, Copy, Debug)]
+pub struct InstructionSet(Level);
+
+impl InstructionSet {
+    /// The widest.
+    #[inline]
+    pub fn widest() -> Self {
+        Self(Level::new())
+    }
+
+    /// All, the widest first.
+    pub fn available() -> Vec<Self> {
+        let widest = Level::new();
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let narrower = [
+            widest.as_avx2().map(Simd::level),
+            widest.as_sse4_2().map(Simd::level),
+            widest.as_sse2().map(Simd::level),
+        ];
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let narrower = [None];
+        let mut all = vec![Self(widest)];
+        all.extend(narrower.into_iter().flatten().map(Self));
+        all.dedup_by_key(|set| set.name());
+        all
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        match self.0 {
+            Level::Avx512(_) => return "AVX-512",
+            Level::Avx2(_) => return "AVX2",
+            Level::Sse4_2(_) => return "SSE4.2",
+            Level::Sse2(_) => return "SSE2",
+            #[allow(
+                unreachable_patterns,
+                reason = "processors without SSE2 have a level of their own"
+            )]
+            _ => {}
+        }
+        "baseline"
+    }
+}
+
 /// Runs `task` on the widest instruction set that this processor has.
 #[inline]
 pub fn run_wide<T: WideTask>(task: T) -> T::Output {
-    dispatch!(Level::new(), simd => task.run(Wide(simd)))
+    run_wide_on(InstructionSet::widest(), task)
+}
+
+/// Runs `task` on one of the instruction sets that this processor has.
+#[inline]
+pub fn run_wide_on<T: WideTask>(set: InstructionSet, task: T) -> T::Output {
+    dispatch!(set.0, simd => task.run(Wide(simd)))
 }
 
 impl<S: Simd> Mask for mask64x8<S> {

@@ -6,6 +6,7 @@
 //! so that every matrix is banded.
 
 use super::mesh::Mesh;
+use crate::lanes::banded::Band;
 
 /// Which unknowns are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,8 +142,12 @@ pub struct Stencil {
     pub slots: [usize; 3],
     /// The magnet each node is rigidly on.
     pub body: [Option<usize>; 3],
+    /// First unknown of that magnet.
+    pub body_dofs: [usize; 3],
     /// Whether each node can move.
     pub moves: [bool; 3],
+    /// Places in the banded matrix of all pairs of unknowns, lower triangle by rows.
+    pub entries: [usize; 45],
 }
 
 impl Stencil {
@@ -155,7 +160,9 @@ impl Stencil {
             count: 0,
             slots: [0; 3],
             body: [None; 3],
+            body_dofs: [0; 3],
             moves: [false; 3],
+            entries: [0; 45],
         };
         for (k, &node) in nodes.iter().enumerate() {
             this.nodes[k] = node;
@@ -163,6 +170,7 @@ impl Stencil {
                 Anchor::Free { dof } => (dof, 2),
                 Anchor::Rigid { body, .. } => {
                     this.body[k] = Some(body);
+                    this.body_dofs[k] = coordinates.bodies[body];
                     (coordinates.bodies[body], 3)
                 }
                 Anchor::Fixed => continue,
@@ -171,6 +179,17 @@ impl Stencil {
             this.slots[k] = this.slot_of(first, size);
         }
         this
+    }
+
+    /// Looks the places of its entries up, once the shape of the matrix is known.
+    pub fn locate(&mut self, band: &Band) {
+        let mut place = 0;
+        for row in 0..self.count {
+            for column in 0..=row {
+                self.entries[place] = band.at(self.dofs[row], self.dofs[column]);
+                place += 1;
+            }
+        }
     }
 
     fn slot_of(&mut self, first: usize, size: usize) -> usize {

@@ -137,11 +137,15 @@ impl Model {
             Integrator::Explicit => Unknowns::Multipliers,
         };
         let coordinates = Coordinates::new(&mesh, unknowns);
-        let stretch = stretch_springs(scene, &mesh, &coordinates);
-        let bend = bending_springs(scene, &mesh, &coordinates);
-        let contacts = contact_points(&mesh, &coordinates);
+        let mut stretch = stretch_springs(scene, &mesh, &coordinates);
+        let mut bend = bending_springs(scene, &mesh, &coordinates);
+        let mut contacts = contact_points(&mesh, &coordinates);
         let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
         let band = band(&coordinates, &stretch, &bend, &contacts);
+        let in_matrix = coordinates.ties.is_empty();
+        stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&band));
+        bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&band));
+        contacts.iter_mut().for_each(|c| c.stencil.locate(&band));
         let program = Program::new(scene, &mesh);
         let step_s = scene.solver.step_s;
         Ok(Self {

@@ -2,7 +2,7 @@
 
 use super::block::{Block, Counters, Status};
 use super::pool::Pool;
-use crate::lanes::{Isa, Scalar, WIDE, WideTask, run_wide};
+use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
@@ -300,6 +300,13 @@ impl Steps for Block<1> {
 
 impl Steps for Block<WIDE> {
     fn run(&mut self, model: &Model, steps: u32) {
+        self.advance_on(InstructionSet::widest(), model, steps);
+    }
+}
+
+impl Block<WIDE> {
+    /// `steps` solver steps on an instruction set of this processor; the bits are those of any other.
+    pub fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32) {
         struct Task<'a>(&'a Model, &'a mut Block<WIDE>, u32);
         impl WideTask for Task<'_> {
             type Output = ();
@@ -308,7 +315,7 @@ impl Steps for Block<WIDE> {
                 advance(isa, self.0, self.1, self.2);
             }
         }
-        run_wide(Task(model, self, steps));
+        run_wide_on(set, Task(model, self, steps));
     }
 }
 

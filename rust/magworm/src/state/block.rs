@@ -133,6 +133,8 @@ pub struct Block<const W: usize> {
     pub approach: Rows<W>,
     /// Normal impulse that friction reckons with [N·s], shape [contacts].
     pub reckoned: Rows<W>,
+    /// Normal impulse reckoned with, and found, in the pass before [N·s], shape [contacts × 2].
+    pub earlier: Rows<W>,
     /// Impulses of the last step, where the penalties start from [N·s], shape [contacts × 2].
     pub warm: Rows<W>,
     /// Work done.
@@ -175,6 +177,7 @@ impl<const W: usize> Block<W> {
             jacobian: zeros(contacts * 2 * crate::contact::SLOTS),
             approach: zeros(contacts),
             reckoned: zeros(contacts),
+            earlier: zeros(2 * contacts),
             warm: zeros(2 * contacts),
             counters: Counters::default(),
         };

@@ -1,0 +1,134 @@
+# `make help` lists the targets. All that is needed: Rust (with clippy and rustfmt for the checks),
+# Python 3.10 or newer, make. Everything is installed into .venv/ inside this folder.
+
+PYTHON ?= python3
+VENV ?= .venv
+# A PyTorch package index, such as https://download.pytorch.org/whl/cpu; empty: pip's own choice.
+TORCH_INDEX_URL ?=
+# Size and folder of the comparison that `make demo` runs; see training/configs/budget-*.toml.
+BUDGET ?= small
+OUT ?= runs/demo
+
+VENV_PYTHON := $(abspath $(VENV))/bin/python
+MATURIN := env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) $(VENV_PYTHON) -m maturin
+PIP := $(VENV_PYTHON) -m pip --disable-pip-version-check
+RUST := $(shell find rust -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
+EXTENSION := $(wildcard magworm_gym/_magworm*.so)
+WHEEL_VENV := target/wheel-venv
+
+export PYO3_PYTHON := $(VENV_PYTHON)
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.PHONY: help demo test bench wheel lint format docs clean install \
+	lint-rust lint-python test-rust test-python test-docs test-wheel \
+	need-cargo need-python need-rust-checks force
+
+##@ Main
+
+demo: install-train  ## train a controller, compare it with the belts, print the table last
+	$(VENV_PYTHON) training/evaluate.py --budget $(BUDGET) --out $(OUT)
+
+test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
+
+##@ Parts
+
+install: install-test  ## .venv with the extension and all extras
+lint: lint-rust lint-python  ## formatting, clippy, ruff, mypy, stubs
+bench: install-test  ## time of a wrench, a step, and the throughput of environments
+	cargo bench --package magworm
+	mkdir -p runs/bench
+	$(VENV_PYTHON) studies/throughput.py --out runs/bench/throughput.json
+
+wheel: $(VENV)/.made  ## release wheel in dist/
+	rm -f dist/*.whl
+	$(MATURIN) build --release --out dist
+
+format: need-rust-checks install-test  ## format Rust and Python, mend what ruff can
+	cargo fmt --all
+	$(VENV_PYTHON) -m ruff check --fix .
+	$(VENV_PYTHON) -m ruff format .
+
+docs: install-test  ## write the tables of README.md that come from the simulator
+	$(VENV_PYTHON) docs/spaces.py README.md
+
+clean:  ## remove everything that was built or installed; results in runs/ stay
+	rm -rf $(VENV) target dist .pytest_cache .mypy_cache .ruff_cache magworm_gym/_magworm*.so
+	find . -name __pycache__ -type d -not -path './.git/*' -prune -exec rm -rf {} +
+
+help:  ## this list
+	@awk 'BEGIN { FS = ":.*## " } \
+		/^##@/ { printf "\n%s\n", substr($$0, 5) } \
+		/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@printf '\nVariables: PYTHON=%s  VENV=%s  BUDGET=%s  OUT=%s\n' '$(PYTHON)' '$(VENV)' '$(BUDGET)' '$(OUT)'
+	@echo '  TORCH_INDEX_URL=https://download.pytorch.org/whl/cpu installs a PyTorch without CUDA.'
+
+##@ Checks, one by one
+
+lint-rust: need-rust-checks $(VENV)/.made  ## cargo fmt, clippy
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets -- --deny warnings
+
+lint-python: install-test  ## ruff, mypy, stubtest
+	$(VENV_PYTHON) -m ruff check .
+	$(VENV_PYTHON) -m ruff format --check .
+	$(VENV_PYTHON) -m mypy
+	$(VENV_PYTHON) -m mypy.stubtest --mypy-config-file pyproject.toml magworm_gym._magworm
+
+test-rust: need-cargo  ## cargo test
+	cargo test
+
+test-docs: need-cargo install-test  ## cargo doc, tables of README.md
+	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm
+	$(VENV_PYTHON) docs/spaces.py --check README.md
+
+test-wheel: wheel  ## the wheel in an empty environment: needs numpy and gymnasium only
+	rm -rf $(WHEEL_VENV)
+	$(PYTHON) -m venv $(WHEEL_VENV)
+	$(WHEEL_VENV)/bin/python -m pip --disable-pip-version-check install --quiet dist/*.whl
+	$(WHEEL_VENV)/bin/python -I -W error .ci/check_wheel.py
+
+test-python: install-test  ## pytest
+	$(VENV_PYTHON) -m pytest
+
+# Stamps: a target below is remade when what it depends on is newer.
+
+$(VENV)/.made: | need-python
+	@$(PYTHON) -m venv $(VENV) \
+		|| { echo 'make: $(PYTHON) cannot make a virtual environment; on Debian and Ubuntu install python3-venv' >&2; exit 1; }
+	$(PIP) install 'maturin>=1.9,<2'
+	@touch $@
+
+# Also where the extension is gone though the stamp is there.
+$(VENV)/.built: $(VENV)/.made $(RUST) pyproject.toml $(if $(EXTENSION),,force) | need-cargo
+	$(MATURIN) develop --release
+	@touch $@
+
+# The package is installed by now: pip adds only what the extra asks for.
+.PHONY: install-train install-test
+install-train: $(VENV)/.built $(VENV)/.train
+install-test: $(VENV)/.built $(VENV)/.test
+
+$(VENV)/.train $(VENV)/.test: $(VENV)/.%: pyproject.toml | $(VENV)/.built
+	$(if $(TORCH_INDEX_URL),$(PIP) install --index-url '$(TORCH_INDEX_URL)' 'torch>=2.4')
+	$(PIP) install 'magworm-gym[$*]'
+	@touch $@
+
+need-cargo:
+	@command -v cargo >/dev/null \
+		|| { echo 'make: cargo is missing: install Rust 1.88 or newer from https://rustup.rs' >&2; exit 1; }
+
+need-rust-checks: need-cargo
+	@cargo fmt --version >/dev/null 2>&1 \
+		|| { echo 'make: rustfmt is missing: run "rustup component add rustfmt"' >&2; exit 1; }
+	@cargo clippy --version >/dev/null 2>&1 \
+		|| { echo 'make: clippy is missing: run "rustup component add clippy"' >&2; exit 1; }
+
+need-python:
+	@command -v $(PYTHON) >/dev/null \
+		|| { echo 'make: $(PYTHON) is missing: install Python 3.10 or newer, or name one, as in "make PYTHON=python3.12"' >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \
+		|| { echo 'make: $(PYTHON) is older than 3.10: name a newer one, as in "make PYTHON=python3.12"' >&2; exit 1; }
+
+force:

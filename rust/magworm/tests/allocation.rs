@@ -1,0 +1,90 @@
+//! Stepping allocates nothing. In a test binary of its own with a single test: the counter sees every thread.
+
+use magworm::model::Model;
+use magworm::scene::Scene;
+use magworm::state::{Batch, LaneChoice, Status, StepOutput};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::sync::Arc;
+
+#[global_allocator]
+static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+const ENVIRONMENTS: usize = 24;
+const CONTROL_STEPS: usize = 300;
+
+/// A batch with everything that a caller has to bring.
+struct Caller {
+    batch: Batch,
+    actions: Vec<f64>,
+    observation: Vec<f32>,
+    progress_m: Vec<f64>,
+    status: Vec<u8>,
+}
+
+impl Caller {
+    fn new(preset: &str, lanes: LaneChoice, threads: usize) -> Self {
+        let scene = Scene::preset(preset).expect("a preset");
+        let model = Arc::new(Model::compile(&scene).expect("a model"));
+        let width = magworm::observe::size(&model);
+        let mut batch = Batch::new(model, ENVIRONMENTS, lanes, Some(threads));
+        // Almost no stiffness: one environment breaks on the way.
+        batch.factors_mut()[0] = 1e-9;
+        (0..ENVIRONMENTS).for_each(|environment| batch.reset(environment, 1, 0, None));
+        Self {
+            batch,
+            actions: (0..3 * ENVIRONMENTS).map(|k| (k as f64).sin()).collect(),
+            observation: vec![0.0; ENVIRONMENTS * width],
+            progress_m: vec![0.0; ENVIRONMENTS],
+            status: vec![0; ENVIRONMENTS],
+        }
+    }
+
+    fn step(&mut self) {
+        self.actions.rotate_left(1);
+        self.batch.step(
+            &self.actions,
+            StepOutput {
+                observation: &mut self.observation,
+                progress_m: &mut self.progress_m,
+                status: &mut self.status,
+            },
+        );
+    }
+
+    /// Everything that a training loop calls over and over.
+    fn go_on(&mut self, control_steps: usize) {
+        for _ in 0..control_steps {
+            self.step();
+            self.batch.advance(2);
+            self.batch.observe(&mut self.observation);
+            self.batch.reset(ENVIRONMENTS - 1, 3, 1, None);
+        }
+    }
+}
+
+/// Allocations and reallocations while a caller goes on, once it has warmed up.
+fn allocations(preset: &str, lanes: LaneChoice, threads: usize) -> usize {
+    let mut caller = Caller::new(preset, lanes, threads);
+    caller.go_on(5);
+    let region = Region::new(COUNTING);
+    caller.go_on(CONTROL_STEPS);
+    let change = region.change();
+    assert!(caller.batch.status(1) == Status::Running, "{preset}: nothing was stepped");
+    change.allocations + change.reallocations
+}
+
+#[test]
+fn stepping_allocates_nothing() {
+    for preset in ["paper-3", "belt-125", "cantilever"] {
+        for lanes in [LaneChoice::Wide, LaneChoice::Scalar] {
+            for threads in [1, 2] {
+                let count = allocations(preset, lanes, threads);
+                println!("{preset}, {lanes:?}, {threads} threads: {count} in {CONTROL_STEPS}");
+                if threads == 1 {
+                    assert_eq!(count, 0, "{preset}, {lanes:?}, {threads} threads");
+                }
+            }
+        }
+    }
+}

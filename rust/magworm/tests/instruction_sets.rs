@@ -1,0 +1,103 @@
+//! Equal bits on every instruction set of this processor, from SSE2 to AVX-512, and in plain `f64`.
+
+use magworm::lanes::{InstructionSet, Scalar, WIDE};
+use magworm::model::Model;
+use magworm::reset::{Draws, reset, scene_start};
+use magworm::scene::{Integrator, PRESETS, Scene};
+use magworm::state::Block;
+use magworm::step::{advance, command};
+
+const CONTROL_STEPS: u64 = 60;
+
+/// Starts the robots `first..` in the lanes of a block, each with parameters of its own.
+fn start<const W: usize>(model: &Model, first: usize) -> Block<W> {
+    let mut block = Block::new(model);
+    for lane in 0..W {
+        let robot = (first + lane) as u64;
+        let mut draws = Draws::new(robot, 7);
+        let factors = Model::PARAMETERS.map(|_| draws.uniform(0.4, 2.5));
+        let present: Vec<bool> = (0..model.magnets()).map(|m| m as u64 % 4 != robot % 5).collect();
+        let mut pose = scene_start(model);
+        pose.angle_rad += 0.1 * lane as f64 / WIDE as f64;
+        reset(model, &mut block, lane, pose, &factors, &present, Draws::new(robot, 0));
+    }
+    block
+}
+
+/// New targets for the robots `first..`, where the scene takes any.
+fn act<const W: usize>(model: &Model, block: &mut Block<W>, first: usize, control_step: u64) {
+    let Some(drive) = &model.program.drive else { return };
+    for lane in 0..W {
+        let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
+        let action = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
+        command(model, drive, block, lane, action);
+    }
+}
+
+/// The bits of one lane's state.
+fn bits<const W: usize>(block: &Block<W>, lane: usize) -> Vec<u64> {
+    let rows = block.state_rows();
+    let state = rows.iter().flat_map(|rows| rows.iter().map(|row| row[lane].to_bits()));
+    state.chain([u64::from(block.status[lane] as u8)]).collect()
+}
+
+/// State of eight robots after every control step, `[control step][robot]`.
+fn on(set: InstructionSet, model: &Model) -> Vec<Vec<Vec<u64>>> {
+    let mut block = start::<WIDE>(model, 0);
+    let steps = (0..CONTROL_STEPS).map(|control_step| {
+        act(model, &mut block, 0, control_step);
+        block.advance_on(set, model, model.steps_per_control);
+        (0..WIDE).map(|lane| bits(&block, lane)).collect()
+    });
+    steps.collect()
+}
+
+/// The same for one robot in plain `f64`, `[control step]`.
+fn alone(model: &Model, robot: usize) -> Vec<Vec<u64>> {
+    let mut block = start::<1>(model, robot);
+    let steps = (0..CONTROL_STEPS).map(|control_step| {
+        act(model, &mut block, robot, control_step);
+        advance(Scalar, model, &mut block, model.steps_per_control);
+        bits(&block, 0)
+    });
+    steps.collect()
+}
+
+fn models() -> Vec<Model> {
+    let preset = |name: &&str| Scene::preset(name).expect("a preset");
+    let mut scenes: Vec<Scene> = PRESETS.iter().map(preset).collect();
+    let mut explicit = preset(&"paper-3");
+    explicit.solver.integrator = Integrator::Explicit;
+    explicit.solver.step_s = 1e-5;
+    explicit.control.step_s = 5e-4;
+    explicit.material.damping_time_s = 1e-4;
+    scenes.push(explicit);
+    scenes.iter().map(|scene| Model::compile(scene).expect("a model")).collect()
+}
+
+#[test]
+fn every_instruction_set_gives_equal_bits() {
+    let sets = InstructionSet::available();
+    println!("instruction sets: {:?}", sets.iter().map(|set| set.name()).collect::<Vec<_>>());
+    for model in models() {
+        let name = &model.scene.name;
+        let widest = on(sets[0], &model);
+        for set in &sets[1..] {
+            assert!(on(*set, &model) == widest, "{name}: {} differs", set.name());
+        }
+        for robot in 0..WIDE {
+            let scalar = alone(&model, robot);
+            let lane = widest.iter().map(|step| &step[robot]);
+            assert!(scalar.iter().eq(lane), "{name}: robot {robot} in plain f64 differs");
+        }
+    }
+}
+
+#[test]
+fn the_widest_instruction_set_comes_first_and_none_twice() {
+    let names: Vec<_> = InstructionSet::available().iter().map(|set| set.name()).collect();
+    assert_eq!(names[0], InstructionSet::widest().name());
+    assert!((1..names.len()).all(|k| !names[..k].contains(&names[k])), "{names:?}");
+    #[cfg(target_arch = "x86_64")]
+    assert!(names.contains(&"SSE2"), "every x86-64 has SSE2: {names:?}");
+}

@@ -1,0 +1,209 @@
+//! Random scenes all the way through: compile, reset, step. Nothing panics, nothing that leaves the
+//! library is infinite or not a number, and what has broken stands still until its reset.
+//!
+//! `PROPTEST_CASES` sets the number of scenes.
+
+mod scene_strategy;
+
+use magworm::model::Model;
+use magworm::reset::Draws;
+use magworm::scene::{Body, Scene};
+use magworm::state::{Batch, LaneChoice, Status, StepOutput};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+const ENVIRONMENTS: usize = 3;
+const CONTROL_STEPS: u64 = 3;
+
+fn cases(usual: u32) -> ProptestConfig {
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() {
+        ProptestConfig::default().cases
+    } else {
+        usual
+    };
+    ProptestConfig { cases, ..ProptestConfig::default() }
+}
+
+/// Everything public about one environment.
+fn numbers(batch: &Batch, environment: usize) -> Vec<f64> {
+    let model = batch.model();
+    let mut seen = vec![];
+    batch.view(environment, |view| {
+        for magnet in 0..model.magnets() {
+            seen.extend(view.magnet_pose(magnet));
+            seen.extend(view.magnet_velocity(magnet));
+        }
+        (0..model.nodes()).for_each(|node| seen.extend(view.node_m(node)));
+        (0..model.contacts.len()).for_each(|contact| seen.extend(view.contact(contact)));
+        let magnets = model.program.drive.as_ref().map_or(0, |d| d.layout.offset_m.len());
+        (0..magnets).for_each(|magnet| seen.extend(view.drive_m(magnet).expect("a drive")));
+        seen.extend(view.drive_m_s());
+        seen.extend([view.centre_x_m(), view.time_s()]);
+        let mut observation = vec![0.0; magworm::observe::size(model)];
+        view.observe(&mut observation);
+        seen.extend(observation.into_iter().map(f64::from));
+    });
+    seen
+}
+
+/// What a control step wrote.
+struct Written {
+    observation: Vec<f32>,
+    progress_m: Vec<f64>,
+    status: Vec<u8>,
+}
+
+fn step(batch: &mut Batch, actions: &[f64]) -> Written {
+    let width = magworm::observe::size(batch.model());
+    let mut written = Written {
+        observation: vec![f32::NAN; ENVIRONMENTS * width],
+        progress_m: vec![f64::NAN; ENVIRONMENTS],
+        status: vec![77; ENVIRONMENTS],
+    };
+    batch.step(
+        actions,
+        StepOutput {
+            observation: &mut written.observation,
+            progress_m: &mut written.progress_m,
+            status: &mut written.status,
+        },
+    );
+    written
+}
+
+/// Asserts that all that can be seen is finite and agrees with what was written.
+fn check(batch: &Batch, written: &Written) -> Result<(), TestCaseError> {
+    prop_assert!(written.observation.iter().all(|x| x.is_finite()), "{:?}", written.observation);
+    prop_assert!(written.progress_m.iter().all(|x| x.is_finite()), "{:?}", written.progress_m);
+    for (environment, &code) in written.status.iter().enumerate() {
+        let status = batch.status(environment);
+        prop_assert_eq!(Status::from_code(code), Some(status));
+        prop_assert_ne!(status, Status::Unused);
+        let seen = numbers(batch, environment);
+        let place = seen.iter().position(|x| !x.is_finite());
+        prop_assert!(place.is_none(), "{environment} {status:?}: number {place:?} of {seen:?}");
+    }
+    Ok(())
+}
+
+/// Three environments: the scene's own, one with extreme parameters, one with magnets removed.
+fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64) -> Batch {
+    let lanes = if seed % 2 == 0 { LaneChoice::Wide } else { LaneChoice::Scalar };
+    let mut batch = Batch::new(Arc::clone(model), ENVIRONMENTS, lanes, Some(1));
+    let parameters = Model::PARAMETERS.len();
+    batch.factors_mut()[parameters..2 * parameters].copy_from_slice(extremes);
+    let mut draws = Draws::new(seed, 1);
+    for is_in in &mut batch.present_mut()[2 * model.magnets()..] {
+        *is_in = draws.uniform(0.0, 1.0) < 0.5;
+    }
+    (0..ENVIRONMENTS).for_each(|environment| batch.reset(environment, seed, 0, None));
+    batch
+}
+
+fn run(model: Model, extremes: &[f64], seed: u64) -> Result<(), TestCaseError> {
+    let model = Arc::new(model);
+    let mut batch = unequal_batch(&model, extremes, seed);
+    let mut draws = Draws::new(seed, 2);
+    for _ in 0..CONTROL_STEPS {
+        let before: Vec<_> =
+            (0..ENVIRONMENTS).map(|e| (batch.status(e), numbers(&batch, e))).collect();
+        let actions: Vec<f64> = (0..3 * ENVIRONMENTS).map(|_| draws.uniform(-1.0, 1.0)).collect();
+        let written = step(&mut batch, &actions);
+        check(&batch, &written)?;
+        for (environment, (status, numbers_before)) in before.into_iter().enumerate() {
+            if status != Status::Running {
+                prop_assert_eq!(batch.status(environment), status);
+                prop_assert_eq!(written.progress_m[environment], 0.0);
+                prop_assert_eq!(numbers(&batch, environment), numbers_before);
+            }
+        }
+    }
+    (0..ENVIRONMENTS).for_each(|environment| batch.reset(environment, seed, 1, None));
+    prop_assert!((0..ENVIRONMENTS).all(|e| batch.status(e) == Status::Running));
+    batch.advance(1);
+    Ok(())
+}
+
+/// Few solver steps per control step, whatever the scene asks for: the time goes into more scenes.
+fn short(mut scene: Scene) -> Scene {
+    let solver_steps = (scene.control.step_s / scene.solver.step_s).round().min(8.0);
+    let control_steps = (scene.control.episode_s / scene.control.step_s).round();
+    scene.control.step_s = solver_steps * scene.solver.step_s;
+    scene.control.episode_s = control_steps * scene.control.step_s;
+    scene.solver.contact_iterations = scene.solver.contact_iterations.min(100);
+    scene
+}
+
+fn extremes() -> impl Strategy<Value = Vec<f64>> {
+    let factor = prop_oneof![
+        2 => Just(0.0),
+        1 => Just(1e-3),
+        2 => Just(1.0),
+        1 => Just(1e3),
+        1 => 0.1..10.0,
+    ];
+    prop::collection::vec(factor, Model::PARAMETERS.len())
+}
+
+proptest! {
+    #![proptest_config(cases(1500))]
+
+    #[test]
+    fn random_valid_scenes_run(
+        scene in scene_strategy::scene(24).prop_map(short),
+        extremes in extremes(),
+        seed: u64,
+    ) {
+        let model = Model::compile(&scene);
+        prop_assert!(model.is_ok(), "{}", model.unwrap_err());
+        run(model.expect("a model"), &extremes, seed)?;
+    }
+
+    #[test]
+    fn scenes_spoiled_in_code_are_refused_or_run(
+        mut scene in scene_strategy::scene(16).prop_map(short),
+        number in prop_oneof![prop::num::f64::ANY, -1.0..1.0, Just(0.0)],
+        place in 0..12_usize,
+        seed: u64,
+    ) {
+        spoil(&mut scene, place, number);
+        match Model::compile(&scene) {
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+            Ok(model) => run(model, &[1.0; 7], seed)?,
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(30))]
+
+    #[test]
+    fn large_random_scenes_run(
+        scene in scene_strategy::scene(300).prop_map(short),
+        extremes in extremes(),
+        seed: u64,
+    ) {
+        run(Model::compile(&scene).expect("a valid scene"), &extremes, seed)?;
+    }
+}
+
+/// Puts a number where it may not belong.
+fn spoil(scene: &mut Scene, place: usize, number: f64) {
+    match place {
+        0 => scene.gravity_m_s2 = number,
+        1 => scene.material.youngs_modulus_pa = number,
+        2 => scene.material.density_kg_m3 = number,
+        3 => scene.material.damping_time_s = number,
+        4 => scene.start.angle_deg = number,
+        5 => scene.start.height_m = number,
+        6 => scene.solver.quadrature_order = number as usize,
+        7 => scene.solver.step_s = number,
+        8 => scene.magnet = None,
+        9 => scene.ground.iter_mut().for_each(|ground| ground.adhesion_n = number),
+        10 => scene.drive.iter_mut().for_each(|drive| drive.height_m = number),
+        _ => match &mut scene.body {
+            Body::Worm(worm) => worm.pitch_m = number,
+            Body::Rod(rod) => rod.thickness_m = number,
+        },
+    }
+}

@@ -1,0 +1,18 @@
+//! The simulator against independent answers: closed forms, ordinary differential equations solved in
+//! the test, finite differences, dense algebra. Every test prints what it measured, so that
+//! `cargo test --test validation -- --nocapture` gives a table of errors.
+
+mod beam;
+mod world;
+
+mod contact_block;
+mod contact_impact;
+mod contact_robust;
+mod contact_weight;
+mod crawl;
+mod derivatives;
+mod dynamics;
+mod explicit;
+mod flight;
+mod odd_bodies;
+mod statics;
