@@ -50,24 +50,35 @@ class Scene:
         """reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2 of a controlled drive."""
     @property
     def geometry(self) -> dict[str, Any]:
-        """Sizes for drawing: node_thickness_m (K), magnet_size_m (length, height), polarity (M),
-        drive_size_m (length, height), ground (bool), incline_deg."""
+        """Sizes for drawing: node_thickness_m (K), element_thickness_m (K − 1), magnet_size_m (length,
+        height), polarity (M), drive_size_m (length, height), ground (bool), incline_deg."""
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def __eq__(self, other: object) -> bool: ...
 
+@final
 class Specification:
     """One named slice of an observation or action row."""
 
-    name: str
-    unit: str
-    size: int
-    low: float
-    high: float
-    description: str
+    @property
+    def name(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def low(self) -> float: ...
+    @property
+    def high(self) -> float: ...
+    @property
+    def description(self) -> str: ...
 
 @final
 class Batch:
     """N environments of one scene, advanced together."""
 
-    def __init__(self, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None) -> None:
+    def __new__(
+        cls, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None
+    ) -> Batch:
         """lanes: "wide" (8 per block) or "scalar"; equal bits. threads: None for all cores."""
     @property
     def scene(self) -> Scene: ...
@@ -120,16 +131,22 @@ class Batch:
     def drive_velocities(self) -> NDArray[np.float64]:
         """(N, 2) [m/s]."""
     def counters(self) -> dict[str, int]:
-        """Solver steps, contact iterations and wrench evaluations since construction."""
+        """Work since construction, counted per block of lanes: steps, solves, factorisations, wrenches."""
     def get_state(self) -> bytes:
         """Everything that changes in time, bit for bit."""
     def set_state(self, state: bytes) -> None:
         """Raises ValueError for a state of another scene or size; nothing is changed then."""
     def __reduce__(self) -> tuple[Any, ...]: ...
 
+def _rebuild_batch(scene: Scene, num_envs: int, lanes: str, threads: int | None, state: bytes) -> Batch:
+    """Makes a batch again from what Batch.__reduce__ kept."""
+
 def cuboid_field(
     size_m: Sequence[float], magnetisation_t: NDArray[np.float64], points_m: NDArray[np.float64]
-) -> NDArray[np.float64]: ...
+) -> NDArray[np.float64]:
+    """Flux density (P, 3) [T] at points (P, 3) [m] of a cuboid at the origin with remanence (P, 3) [T].
+    Raises ValueError for other shapes."""
+
 def cuboid_wrench(
     drive_size_m: Sequence[float],
     body_size_m: Sequence[float],
@@ -139,4 +156,6 @@ def cuboid_wrench(
     body_magnetisation_t: NDArray[np.float64],
     order: int,
     model: str,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Force (P, 3) [N] and torque (P, 3) [N·m] on bodies at positions (P, 3) [m] with orientations
+    (P, 4) w, x, y, z and remanences (P, 3) [T]; order 1 to 10; model "cuboid" or "dipole"."""

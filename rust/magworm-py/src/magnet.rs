@@ -51,7 +51,9 @@ pub fn cuboid_wrench<'py>(
         "cuboid" => false,
         "dipole" => true,
         other => {
-            return Err(value_error(format!("model is {other:?}; allowed: \"cuboid\", \"dipole\"")));
+            return Err(value_error(format!(
+                "model is {other:?}; allowed: \"cuboid\", \"dipole\""
+            )));
         }
     };
     let count = rows(&position_m)?;

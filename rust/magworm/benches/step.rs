@@ -63,7 +63,10 @@ fn main() {
     let per_step = |count: u64| count as f64 / work.steps as f64;
     println!("paper-3, {ENVIRONMENTS} environments, control step {} s", model.scene.control.step_s);
     println!("one thread, one lane     {scalar:>10.0} environment steps/s");
-    println!("one thread, eight lanes  {wide:>10.0} environment steps/s ({:.2} times)", wide / scalar);
+    println!(
+        "one thread, eight lanes  {wide:>10.0} environment steps/s ({:.2} times)",
+        wide / scalar
+    );
     println!("all threads, eight lanes {all:>10.0} environment steps/s");
     println!(
         "per solver step of a block: {:.2} factorisations, {:.2} solves, {:.2} wrenches",

@@ -74,16 +74,19 @@ fn allocations(preset: &str, lanes: LaneChoice, threads: usize) -> usize {
     change.allocations + change.reallocations
 }
 
+/// Most allocations of rayon's queue: it makes a new block for every 63 jobs handed to the pool, and
+/// `step` and `advance` hand in one each.
+const QUEUE: usize = (2 * CONTROL_STEPS).div_ceil(63);
+
 #[test]
 fn stepping_allocates_nothing() {
-    for preset in ["paper-3", "belt-125", "cantilever"] {
-        for lanes in [LaneChoice::Wide, LaneChoice::Scalar] {
-            for threads in [1, 2] {
+    // One thread first: threads of a pool that is gone still tidy up after themselves.
+    for (threads, most) in [(1, 0), (2, QUEUE)] {
+        for preset in ["paper-3", "belt-125", "cantilever"] {
+            for lanes in [LaneChoice::Wide, LaneChoice::Scalar] {
                 let count = allocations(preset, lanes, threads);
-                println!("{preset}, {lanes:?}, {threads} threads: {count} in {CONTROL_STEPS}");
-                if threads == 1 {
-                    assert_eq!(count, 0, "{preset}, {lanes:?}, {threads} threads");
-                }
+                println!("{preset}, {lanes:?}, {threads} threads: {count}");
+                assert!(count <= most, "{preset}, {lanes:?}, {threads} threads: {count}");
             }
         }
     }

@@ -18,7 +18,7 @@ fn start<const W: usize>(model: &Model, first: usize) -> Block<W> {
         let factors = Model::PARAMETERS.map(|_| draws.uniform(0.4, 2.5));
         let present: Vec<bool> = (0..model.magnets()).map(|m| m as u64 % 4 != robot % 5).collect();
         let mut pose = scene_start(model);
-        pose.angle_rad += 0.1 * lane as f64 / WIDE as f64;
+        pose.angle_rad += 0.01 * robot as f64;
         reset(model, &mut block, lane, pose, &factors, &present, Draws::new(robot, 0));
     }
     block

@@ -40,9 +40,11 @@ impl<F: Real> Ground<F> {
     #[inline(always)]
     pub fn new(law: &GroundLaw, static_factor: F, dynamic_factor: F, dt: f64) -> Self {
         let one = static_factor.splat(1.0);
+        let static_friction = static_factor * law.static_friction;
         Self {
-            static_friction: static_factor * law.static_friction,
-            dynamic_friction: dynamic_factor * law.dynamic_friction,
+            static_friction,
+            // Varied on its own it could exceed the static one, which has no meaning.
+            dynamic_friction: (dynamic_factor * law.dynamic_friction).min(static_friction),
             adhesion: one * (law.adhesion_n * dt),
             transition_speed: one * law.transition_speed_m_s,
             weight: one * law.weight_kg,
@@ -230,7 +232,8 @@ fn extrapolate<const W: usize, I: Isa<W>>(
     let run = reckoned - earlier_reckoned;
     let rise = found - earlier_found;
     let gentle = rise.abs().lt(run.abs() * 0.8);
-    let agreed = found + (found - reckoned) * rise / I::F::select(gentle, run - rise, isa.splat(1.0));
+    let agreed =
+        found + (found - reckoned) * rise / I::F::select(gentle, run - rise, isa.splat(1.0));
     I::F::select(gentle & agreed.gt(isa.splat(0.0)), agreed, found)
 }
 

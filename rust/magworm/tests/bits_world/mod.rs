@@ -9,7 +9,7 @@ pub use record::Record;
 
 use magworm::model::Model;
 use magworm::reset::{Draws, StartPose};
-use magworm::state::{Batch, LaneChoice, Status, StepOutput};
+use magworm::state::{Batch, LaneChoice, StepOutput};
 use std::sync::Arc;
 
 /// Control step in which some robots fare ill.
@@ -128,13 +128,6 @@ pub fn run(world: &mut World, steps: u64) -> Vec<Vec<Record>> {
             (0..places).map(|place| world.record(place)).collect()
         })
         .collect()
-}
-
-/// How many robots run and how many have broken.
-pub fn running_and_broken(world: &World) -> (usize, usize) {
-    let status = (0..world.batch.count()).map(|place| world.batch.status(place));
-    let running = status.filter(|&status| status == Status::Running).count();
-    (running, world.batch.count() - running)
 }
 
 /// A little beyond [−1, 1], so that clipping is part of the test.

@@ -42,7 +42,8 @@ fn shoot(slope: f64, loads: Loads) -> [f64; 4] {
     };
     let steps = 4000;
     let h = 1.0 / f64::from(steps);
-    let plus = |y: [f64; 4], k: [f64; 4], c: f64| -> [f64; 4] { std::array::from_fn(|i| y[i] + c * k[i]) };
+    let plus =
+        |y: [f64; 4], k: [f64; 4], c: f64| -> [f64; 4] { std::array::from_fn(|i| y[i] + c * k[i]) };
     let mut y = [0.0, slope, 0.0, 0.0];
     for n in 0..steps {
         let s = f64::from(n) * h;

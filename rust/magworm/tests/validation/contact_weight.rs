@@ -31,7 +31,10 @@ fn validates_creep_over_a_far_drive() {
         let before = world.block.centre_x(&world.model, 0);
         world.run(1.0);
         let creep = world.block.centre_x(&world.model, 0) - before;
-        println!("{preset} on 20° over a far drive: creep {creep:.1e} m/s, fastest {:.1e} m/s", world.fastest(0));
+        println!(
+            "{preset} on 20° over a far drive: creep {creep:.1e} m/s, fastest {:.1e} m/s",
+            world.fastest(0)
+        );
         assert!(creep.abs() < 1e-9);
     }
 }

@@ -41,7 +41,9 @@ impl Cut<'_> {
             let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
             let half = |e: usize| match mesh.elements[e].magnet {
                 Some(_) => 0.0,
-                None => 6.0 * rest(e) / (modulus * mesh.width_m * mesh.elements[e].thickness_m.powi(3)),
+                None => {
+                    6.0 * rest(e) / (modulus * mesh.width_m * mesh.elements[e].thickness_m.powi(3))
+                }
             };
             let stiffness = 1.0 / (half(i - 1) + half(i));
             out.push(Strain { value: 2.0 * (0.5 * turn).tan(), stiffness, axial: false });
@@ -53,15 +55,20 @@ impl Cut<'_> {
 /// Node positions from unknowns, independently of the simulator's kinematics.
 fn nodes(world: &World, q: &[f64]) -> Vec<[f64; 2]> {
     let coordinates = &world.model.coordinates;
-    coordinates.anchors.iter().enumerate().map(|(node, anchor)| match *anchor {
-        Anchor::Free { dof } => [q[dof], q[dof + 1]],
-        Anchor::Rigid { body, side } => {
-            let dof = coordinates.bodies[body];
-            let arm = f64::from(side) * world.model.half_magnet_m;
-            [q[dof] + arm * q[dof + 2].cos(), q[dof + 1] + arm * q[dof + 2].sin()]
-        }
-        Anchor::Fixed => [world.block.held[2 * node][0], world.block.held[2 * node + 1][0]],
-    }).collect()
+    coordinates
+        .anchors
+        .iter()
+        .enumerate()
+        .map(|(node, anchor)| match *anchor {
+            Anchor::Free { dof } => [q[dof], q[dof + 1]],
+            Anchor::Rigid { body, side } => {
+                let dof = coordinates.bodies[body];
+                let arm = f64::from(side) * world.model.half_magnet_m;
+                [q[dof] + arm * q[dof + 2].cos(), q[dof + 1] + arm * q[dof + 2].sin()]
+            }
+            Anchor::Fixed => [world.block.held[2 * node][0], world.block.held[2 * node + 1][0]],
+        })
+        .collect()
 }
 
 fn unknowns(world: &World) -> Vec<f64> {
@@ -88,7 +95,8 @@ fn gradients(world: &World, q: &[f64]) -> Vec<DVector<f64>> {
             moved[k] += by;
             values(&moved)
         };
-        for (gradient, (up, down)) in out.iter_mut().zip(moved(step).into_iter().zip(moved(-step))) {
+        for (gradient, (up, down)) in out.iter_mut().zip(moved(step).into_iter().zip(moved(-step)))
+        {
             gradient[k] = (up - down) / (2.0 * step);
         }
     }
@@ -97,9 +105,17 @@ fn gradients(world: &World, q: &[f64]) -> Vec<DVector<f64>> {
 
 /// A worm whose feet hold magnets, and rods, clamped or not, bent strongly.
 fn bodies() -> Vec<(&'static str, World)> {
-    let still = [("gravity_m_s2", "0.0"), ("ground", ""), ("drive", ""), ("material.damping_time_s", "0.0")];
+    let still = [
+        ("gravity_m_s2", "0.0"),
+        ("ground", ""),
+        ("drive", ""),
+        ("material.damping_time_s", "0.0"),
+    ];
     let magnets = [
-        ("magnet", "{length_m=8e-3,width_m=0.008,height_m=0.002,remanence_t=1.22,density_kg_m3=7500}"),
+        (
+            "magnet",
+            "{length_m=8e-3,width_m=0.008,height_m=0.002,remanence_t=1.22,density_kg_m3=7500}",
+        ),
         ("body.magnets", "[{position_m=0.025,polarity=1},{position_m=0.096,polarity=-1}]"),
     ];
     let clamped = [magnets[0], magnets[1], ("body.clamp", "'head'")];
@@ -134,7 +150,10 @@ fn validates_elastic_forces() {
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             expected -= gradient * (strain.stiffness * strain.value);
         }
-        let force = DVector::from_iterator(q.len(), world.block.right.iter().map(|r| r[0] / world.model.step_s));
+        let force = DVector::from_iterator(
+            q.len(),
+            world.block.right.iter().map(|r| r[0] / world.model.step_s),
+        );
         let error = (&force - &expected).amax() / expected.amax();
         println!("elastic forces of {name}: error {error:.1e} of {:.2e} N", expected.amax());
         assert!(error < 1e-6);
@@ -177,7 +196,8 @@ fn expected_matrix(world: &World, q: &[f64], dt: f64, tau: f64) -> DMatrix<f64> 
     let place = nodes(world, q);
     let soft: Vec<usize> =
         (0..place.len() - 1).filter(|&e| world.model.mesh.elements[e].magnet.is_none()).collect();
-    for (index, (strain, gradient)) in strains(world, q).iter().zip(gradients(world, q)).enumerate() {
+    for (index, (strain, gradient)) in strains(world, q).iter().zip(gradients(world, q)).enumerate()
+    {
         matrix += &gradient * gradient.transpose() * (dt * (dt + tau) * strain.stiffness);
         if strain.axial && strain.value > 0.0 {
             let e = soft[index];

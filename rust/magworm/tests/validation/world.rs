@@ -93,7 +93,8 @@ impl World {
             Anchor::Free { dof } => [self.block.v[dof][0], self.block.v[dof + 1][0]],
             Anchor::Fixed => [0.0; 2],
             Anchor::Rigid { body, .. } => {
-                let ([x, y, _], here) = (self.block.magnet_pose(&self.model, body, 0), self.node(node));
+                let ([x, y, _], here) =
+                    (self.block.magnet_pose(&self.model, body, 0), self.node(node));
                 let [vx, vy, rate] = self.block.magnet_velocity(&self.model, body, 0);
                 [vx - rate * (here[1] - y), vy + rate * (here[0] - x)]
             }
@@ -139,7 +140,11 @@ impl World {
         for &(dof, axis) in &self.model.translations {
             let p = self.block.mass[dof][0] * self.block.v[dof][0];
             linear[axis] += p;
-            angular += if axis == 0 { -p * self.block.q[dof + 1][0] } else { p * self.block.q[dof - 1][0] };
+            angular += if axis == 0 {
+                -p * self.block.q[dof + 1][0]
+            } else {
+                p * self.block.q[dof - 1][0]
+            };
         }
         for &dof in &self.model.coordinates.bodies {
             angular += self.block.mass[dof + 2][0] * self.block.v[dof + 2][0];

@@ -1,0 +1,121 @@
+"""Environment steps per second, beside the stride error of the step they are taken with.
+
+Prints a table and writes JSON: the native vector environment, eight lanes and one, on all cores and on
+one, each the median of several runs after a warm-up; and the stride of one pass of the drive at the
+preset's solver step against the mean over steps twenty to forty times shorter.
+
+    python studies/throughput.py --out runs/bench/throughput.json
+"""
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import time
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from magworm_gym import Batch, Scene
+
+ENVIRONMENTS = 256
+CONTROL_STEPS = 50
+SHORT_STEPS_S = (1e-4, 8e-5, 6.25e-5, 5e-5)
+PASS_DURATION_S = 1.5
+
+
+def steps_per_second(scene: str, lanes: str, threads: int | None, repetitions: int) -> list[float]:
+    """Environment steps per second of each repetition, random actions."""
+    environment: Any = gymnasium.make_vec(
+        "MagWorm/Crawl-v0", num_envs=ENVIRONMENTS, scene=scene, lanes=lanes, threads=threads
+    )
+    environment.reset(seed=0)
+    environment.action_space.seed(0)
+    actions = [environment.action_space.sample() for _ in range(CONTROL_STEPS)]
+    rates = []
+    for repetition in range(repetitions + 1):
+        start = time.perf_counter()
+        for action in actions:
+            environment.step(action)
+        if repetition > 0:  # the first warms up
+            rates.append(ENVIRONMENTS * CONTROL_STEPS / (time.perf_counter() - start))
+    environment.close()
+    return rates
+
+
+def stride_mm(scene: str, step_s: float | None) -> float:
+    """Stride of one pass at 100 mm/s from 50 mm ahead [mm]; solver step None: the scene's."""
+    motion = {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}
+    changes: dict[str, Any] = {"drive.motion": motion}
+    if step_s is not None:
+        changes["solver.step_s"] = step_s
+    batch = Batch(Scene.preset(scene).with_values(changes), 1, lanes="scalar", threads=1)
+    zero = np.zeros(1, np.uint64)
+    batch.reset(np.ones(1, bool), zero, zero)
+    start = batch.magnet_poses()[0, :, 0].mean()
+    batch.advance(PASS_DURATION_S)
+    return float(start - batch.magnet_poses()[0, :, 0].mean()) * 1e3
+
+
+def measure(scene: str, repetitions: int) -> dict[str, Any]:
+    """All figures of one scene."""
+    cases = {
+        "eight lanes, all cores": ("wide", None),
+        "eight lanes, one core": ("wide", 1),
+        "one lane, all cores": ("scalar", None),
+    }
+    rates = {name: steps_per_second(scene, *case, repetitions) for name, case in cases.items()}
+    strides = [stride_mm(scene, step) for step in SHORT_STEPS_S]
+    converged = statistics.mean(strides)
+    stride = stride_mm(scene, None)
+    return {
+        "scene": scene,
+        "environments": ENVIRONMENTS,
+        "control_step_s": Scene.preset(scene).control_step_s,
+        "cores": os.cpu_count(),
+        "processor": platform.processor() or platform.machine(),
+        "steps_per_second": {name: statistics.median(values) for name, values in rates.items()},
+        "steps_per_second_range": {name: [min(v), max(v)] for name, v in rates.items()},
+        "stride_mm": stride,
+        "stride_converged_mm": converged,
+        "stride_converged_range_mm": [min(strides), max(strides)],
+        "stride_error": abs(stride / converged - 1),
+    }
+
+
+def table(result: dict[str, Any]) -> str:
+    """The figures as text."""
+    lines = [
+        f"{result['scene']}, {result['environments']} environments, control step"
+        f" {result['control_step_s']} s, {result['cores']} cores",
+    ]
+    for name, rate in result["steps_per_second"].items():
+        low, high = result["steps_per_second_range"][name]
+        lines.append(f"{name:<24}{rate:>10,.0f} environment steps/s ({low:,.0f} to {high:,.0f})")
+    low, high = result["stride_converged_range_mm"]
+    lines.append(
+        f"stride of one pass {result['stride_mm']:.3f} mm; converged {result['stride_converged_mm']:.3f}"
+        f" ({low:.3f} to {high:.3f}) mm; error {100 * result['stride_error']:.2f} %"
+    )
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--scene", default="paper-3", help="preset")
+    parser.add_argument("--repetitions", type=int, default=7, help="runs whose median is taken")
+    parser.add_argument("--out", type=Path, help="JSON file to write")
+    arguments = parser.parse_args()
+    result = measure(arguments.scene, arguments.repetitions)
+    print(table(result))
+    if arguments.out is not None:
+        arguments.out.parent.mkdir(parents=True, exist_ok=True)
+        arguments.out.write_text(json.dumps(result, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()
