@@ -7,6 +7,18 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "PRESETS",
+    "Batch",
+    "Scene",
+    "SceneError",
+    "Specification",
+    "__version__",
+    "_rebuild_batch",
+    "cuboid_field",
+    "cuboid_wrench",
+]
+
 __version__: str
 PRESETS: tuple[str, ...]
 
@@ -53,7 +65,7 @@ class Scene:
         """Sizes for drawing: node_thickness_m (K), element_thickness_m (K − 1), magnet_size_m (length,
         height), polarity (M), drive_size_m (length, height), ground (bool), incline_deg."""
     def __reduce__(self) -> tuple[Any, ...]: ...
-    def __eq__(self, other: object) -> bool: ...
+    def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class Specification:

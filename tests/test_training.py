@@ -157,6 +157,14 @@ def test_interrupted_training_ends_as_an_uninterrupted_one(
     assert list((tmp_path / "whole" / "seed-3" / "tensorboard").iterdir())
 
 
+def test_seeds_side_by_side_end_as_one_after_the_other(config: Path, tmp_path: Path) -> None:
+    flags = ["crawl", "--config", str(config), "--steps", "256", "--seeds", "3", "4"]
+    for workers in ("1", "2"):
+        train.main([*flags, "--workers", workers, "--out", str(tmp_path / workers)])
+    for one, other in zip(weights(tmp_path / "1"), weights(tmp_path / "2"), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_soft_actor_critic_trains_and_goes_on(tmp_path: Path) -> None:
     config = tmp_path / "sac.toml"
     config.write_text(
@@ -176,7 +184,7 @@ def test_comparison_writes_everything_and_keeps_its_stages(
 ) -> None:
     budget, out = tmp_path / "tiny.toml", tmp_path / "run"
     budget.write_text(TINY_BUDGET)
-    flags = ["--budget", str(budget), "--scene", "paper-4", "--out", str(out)]
+    flags = ["--budget", str(budget), "--scene", "paper-4", "--out", str(out), "--workers", "1"]
     evaluate.main(flags)
     printed = capsys.readouterr().out
     files = {path.name for path in out.iterdir() if path.is_file()}
@@ -210,6 +218,7 @@ def test_comparison_writes_everything_and_keeps_its_stages(
         (["crawl", "--randomise-parameters", "1"], "between 0 and 0.9"),
         (["crawl", "--config", "nowhere.toml"], "no readable file nowhere.toml"),
         (["crawl", "--resume", "--out", "nowhere"], "no training to go on with"),
+        (["crawl", "--workers", "0"], "'0' is not a whole number"),
         (["fly"], "'fly'"),
     ],
 )

@@ -15,6 +15,14 @@ class UsageError(Exception):
     """A mistake in flags or files that the user can mend; the message is one sentence."""
 
 
+def positive(text: str) -> int:
+    """Reads a whole number of at least 1."""
+    number = int(text) if text.isdecimal() else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
+    return number
+
+
 class Parser(argparse.ArgumentParser):
     """Parser that reports a bad flag in one line."""
 

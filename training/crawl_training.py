@@ -38,7 +38,15 @@ CURVE_POINTS = 100
 SEED_STRIDE = 1_000_003
 
 
-def train_seed(settings: TrainingSettings, scene: Scene, seed: int, folder: Path) -> dict[str, Any]:
+def train_seed(
+    settings: TrainingSettings,
+    scene: Scene,
+    seed: int,
+    folder: Path,
+    *,
+    row: int = 0,
+    threads: int | None = None,
+) -> dict[str, Any]:
     """Trains one policy, going on from the last complete checkpoint if there is one.
 
     Args:
@@ -46,6 +54,8 @@ def train_seed(settings: TrainingSettings, scene: Scene, seed: int, folder: Path
         scene: Scene to train on.
         seed: Seed of policy, exploration and environments.
         folder: Folder of this seed; gets checkpoints, TensorBoard files and, at the end, the policy.
+        row: Line of the terminal for the progress bar, counted from the first one.
+        threads: Most threads of the simulator; None for all cores. It does not change the results.
 
     Returns:
         What ``finished.json`` holds: steps, simulated and wall-clock seconds, learning curve. A seed
@@ -57,12 +67,12 @@ def train_seed(settings: TrainingSettings, scene: Scene, seed: int, folder: Path
     # The network is small: a second thread costs more in waiting than it computes.
     torch.set_num_threads(1)
     began = time.monotonic()
-    trainee = _trainee(settings, scene, seed)
+    trainee = _trainee(settings, scene, seed, threads)
     checkpoints = complete_checkpoints(folder / CHECKPOINTS)
     if checkpoints:
         trainee = restore_checkpoint(checkpoints[-1], trainee)
     first_step = trainee.model.num_timesteps
-    _learn(settings, scene, trainee, folder)
+    _learn(settings, scene, trainee, folder, row)
     _save_policy(folder / POLICY, trainee)
     summary = {
         "algorithm": settings.algorithm,
@@ -83,11 +93,11 @@ def read_finished(folder: Path) -> dict[str, Any]:
     return summary
 
 
-def _trainee(settings: TrainingSettings, scene: Scene, seed: int) -> Trainee:
+def _trainee(settings: TrainingSettings, scene: Scene, seed: int, threads: int | None) -> Trainee:
     """A training before its first step."""
     # Not the argument of the algorithm: that would also seed the environments, close to each other.
     set_random_seed(seed)
-    robots = VariedRobots(settings, scene, seed)
+    robots = VariedRobots(settings, scene, seed, threads)
     vec_env: VecEnv = robots
     vec_env.seed(seed * SEED_STRIDE)
     normalisation = None
@@ -122,7 +132,7 @@ def _model(settings: TrainingSettings, vec_env: VecEnv) -> BaseAlgorithm:
         raise UsageError(f"table [algorithm]: {error}") from None
 
 
-def _learn(settings: TrainingSettings, scene: Scene, trainee: Trainee, folder: Path) -> None:
+def _learn(settings: TrainingSettings, scene: Scene, trainee: Trainee, folder: Path, row: int) -> None:
     model = trainee.model
     left = settings.steps - model.num_timesteps
     if left <= 0:
@@ -136,7 +146,7 @@ def _learn(settings: TrainingSettings, scene: Scene, trainee: Trainee, folder: P
             settings.checkpoint_steps,
             model.num_timesteps,
         ),
-        Bar(folder.name, settings.steps, trainee.curve),
+        Bar(folder.name, settings.steps, trainee.curve, row),
     ]
     fresh = model.num_timesteps == 0
     model.learn(left, callbacks, reset_num_timesteps=fresh)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import command_line
 from atomic_files import write_json, write_text
-from command_line import Parser, UsageError
+from command_line import Parser, UsageError, positive
 from evaluation_settings import Budget, read_budget
 from train import SCENE, SETTINGS, train
 from training_settings import TrainingSettings, read_saved_settings
@@ -43,10 +43,12 @@ def main(arguments: list[str]) -> None:
     folder = Path(flags.policies) if flags.policies is not None else out / "training"
     settings = _settings(folder, budget, given=flags.policies is not None)
     out.mkdir(parents=True, exist_ok=True)
-    print(evaluate(budget, settings, folder, out))
+    print(evaluate(budget, settings, folder, out, flags.workers))
 
 
-def evaluate(budget: Budget, settings: TrainingSettings, folder: Path, out: Path) -> str:
+def evaluate(
+    budget: Budget, settings: TrainingSettings, folder: Path, out: Path, workers: int | None = None
+) -> str:
     """Runs all stages; those that an earlier run has finished are kept.
 
     Args:
@@ -54,6 +56,7 @@ def evaluate(budget: Budget, settings: TrainingSettings, folder: Path, out: Path
         settings: Settings of the training.
         folder: Folder of the training; what is missing of it is trained.
         out: Folder of the report.
+        workers: Seeds trained side by side; None for the number of cores.
 
     Returns:
         Verdict and tables, to print.
@@ -62,7 +65,7 @@ def evaluate(budget: Budget, settings: TrainingSettings, folder: Path, out: Path
     from comparison import Comparison, Policies
     from stages import Stages
 
-    summaries = train(settings, folder)
+    summaries = train(settings, folder, workers)
     scene = Scene.from_toml((folder / SCENE).read_text(encoding="utf-8"))
     policies = Policies(folder, settings.algorithm, summaries)
     comparison = Comparison(scene, policies, budget, Stages(out / "stages"))
@@ -136,6 +139,9 @@ def _parser() -> Parser:
         "--policies",
         metavar="FOLDER",
         help="--out of a train.py run (default: trains into the folder training of --out)",
+    )
+    parser.add_argument(
+        "--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)"
     )
     parser.add_argument("--scene", help="preset or path of a TOML file to train and compare on")
     parser.add_argument(

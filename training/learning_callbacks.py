@@ -1,5 +1,6 @@
 """What happens between rollouts: learning curve, checkpoints, progress bar."""
 
+import multiprocessing
 import sys
 from collections.abc import Callable
 
@@ -48,6 +49,9 @@ class LearningCurve(BaseCallback):
 class Checkpoints(BaseCallback):
     """Saves between updates, when policy, environments and statistics fit together.
 
+    Where the training runs in a worker process, it ends with the process that started it: a run that
+    goes on later must find nobody else writing into its folder.
+
     Args:
         save: Writes a checkpoint.
         every: Environment steps between checkpoints.
@@ -61,6 +65,9 @@ class Checkpoints(BaseCallback):
         self._done = done
 
     def _on_rollout_start(self) -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None and not parent.is_alive():
+            raise KeyboardInterrupt("the process that wanted this training is gone")
         if self.num_timesteps - self._done >= self._every:
             self._save()
             self._done = self.num_timesteps
@@ -76,13 +83,15 @@ class Bar(BaseCallback):
         title: Text in front of the bar.
         total: Environment steps of the whole training.
         curve: Learning curve, for the speed.
+        row: Line of the terminal, counted from the first bar.
     """
 
-    def __init__(self, title: str, total: int, curve: Curve) -> None:
+    def __init__(self, title: str, total: int, curve: Curve, row: int = 0) -> None:
         super().__init__()
         self._title = title
         self._total = total
         self._curve = curve
+        self._row = row
 
     def _on_training_start(self) -> None:
         self._bar = tqdm(
@@ -91,6 +100,7 @@ class Bar(BaseCallback):
             desc=self._title,
             unit="step",
             unit_scale=True,
+            position=self._row,
             disable=not sys.stderr.isatty(),
         )
 

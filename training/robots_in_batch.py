@@ -25,10 +25,13 @@ class VariedRobots(MagWormVecEnv):
             parameters.
         scene: Scene of all environments.
         seed: Seed of the parameters.
+        threads: Most threads of the simulator; None for all cores.
     """
 
-    def __init__(self, settings: TrainingSettings, scene: Scene, seed: int) -> None:
-        super().__init__(settings.num_envs, scene, max_episode_steps=settings.episode_steps)
+    def __init__(
+        self, settings: TrainingSettings, scene: Scene, seed: int, threads: int | None = None
+    ) -> None:
+        super().__init__(settings.num_envs, scene, max_episode_steps=settings.episode_steps, threads=threads)
         self._robots: dict[str, Any] = {}
         if settings.removed_share > 0.0:
             self._robots["removed"] = removed_for_each(

@@ -6,7 +6,7 @@ from typing import Any
 
 import command_line
 from atomic_files import write_json, write_text
-from command_line import Parser, UsageError
+from command_line import Parser, UsageError, positive
 from training_settings import (
     ALGORITHMS,
     CONFIGS,
@@ -38,24 +38,25 @@ def main(arguments: list[str]) -> None:
         raise UsageError(
             f"{out} holds a training already: add --resume to go on with it, or choose another --out"
         )
-    summaries = train(settings, out)
+    summaries = train(settings, out, flags.workers)
     for summary in summaries:
         speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
         print(f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} mm/s while exploring")
     print(f"policies are in {out}/seed-*/policy")
 
 
-def train(settings: TrainingSettings, out: Path) -> list[dict[str, Any]]:
+def train(settings: TrainingSettings, out: Path, workers: int | None = None) -> list[dict[str, Any]]:
     """Trains every seed into a folder, going on where an earlier run stopped.
 
     Args:
         settings: Settings of the training.
         out: Folder of the run; settings and scene are kept in it.
+        workers: Seeds trained side by side; None for the number of cores.
 
     Returns:
         One summary for each seed, see ``crawl_training.train_seed``.
     """
-    from crawl_training import train_seed
+    from parallel_seeds import default_workers, train_seeds
 
     kept_scene = out / SCENE
     scene = (
@@ -66,7 +67,7 @@ def train(settings: TrainingSettings, out: Path) -> list[dict[str, Any]]:
     out.mkdir(parents=True, exist_ok=True)
     write_text(kept_scene, scene.to_toml())
     write_json(out / SETTINGS, settings.to_json())
-    return [train_seed(settings, scene, seed, out / f"seed-{seed}") for seed in settings.seeds]
+    return train_seeds(settings, scene, out, workers or default_workers())
 
 
 def _new_settings(flags: argparse.Namespace) -> TrainingSettings:
@@ -118,6 +119,7 @@ def _parser() -> Parser:
         "--randomise-parameters", dest="parameter_spread", type=float, metavar="SPREAD",
         help="stiffness, friction and so on differ by up to this share",
     )  # fmt: skip
+    add("--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)")
     add("--out", default="runs/crawl", metavar="FOLDER", help="folder of the run (default: %(default)s)")
     add("--resume", action="store_true", help="go on from the last complete checkpoint of --out")
     return parser

@@ -6,7 +6,7 @@
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
 use super::{Equations, MOST, Places, Scheme, Spring, gather};
-use crate::lanes::{Isa, Real};
+use crate::lanes::Isa;
 use crate::model::Model;
 use crate::state::Block;
 
