@@ -41,7 +41,7 @@ class TrainingSettings:
     algorithm: str = "ppo"
     scene: str = "paper-3"
     num_envs: int = 256
-    steps: int = 3_000_000
+    steps: int = 2_000_000
     seeds: tuple[int, ...] = (0, 1, 2)
     episode_steps: int = 400
     checkpoint_steps: int = 500_000

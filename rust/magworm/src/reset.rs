@@ -1,7 +1,8 @@
 //! Initial states: the straight body at rest, and what each environment draws at random.
 
 use crate::drive::{DriveModel, Path};
-use crate::model::{Anchor, Model};
+use crate::lanes::math::sin_cos;
+use crate::model::{Anchor, Model, Sole};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 
@@ -101,7 +102,7 @@ fn lay_straight<const W: usize>(
         rows.iter_mut().for_each(|row| row[lane] = 0.0);
     }
     block.step_count[0][lane] = 0.0;
-    let (sin, cos) = start.angle_rad.sin_cos();
+    let (sin, cos) = sin_cos(start.angle_rad);
     let head = [start.x_m, start.height_m + drop_to_lowest(model, sin, cos)];
     let place = |arc: f64| [head[0] + arc * cos, head[1] + arc * sin];
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
@@ -130,14 +131,15 @@ fn lay_straight<const W: usize>(
 
 /// How far the centre line's head end lies above the lowest contact point; 0 without ground.
 fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
-    let below = |sole: &crate::model::Sole| sole.depth_m * cos - model.mesh.arc_m[sole.node] * sin;
-    model
-        .mesh
-        .soles
-        .iter()
-        .map(below)
-        .fold(None, |most: Option<f64>, d| Some(most.map_or(d, |m| m.max(d))))
-        .unwrap_or(0.0)
+    let below = |sole: &Sole| match *sole {
+        Sole::Foot { body, along_m, depth_m } => {
+            let element = model.mesh.magnets[body].element;
+            let arc = &model.mesh.arc_m;
+            depth_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin
+        }
+        Sole::Node { node, depth_m } => depth_m - model.mesh.arc_m[node] * sin,
+    };
+    model.mesh.soles.iter().map(below).reduce(f64::max).unwrap_or(0.0)
 }
 
 /// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.

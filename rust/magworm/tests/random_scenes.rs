@@ -88,7 +88,7 @@ fn check(batch: &Batch, written: &Written) -> Result<(), TestCaseError> {
 
 /// Three environments: the scene's own, one with extreme parameters, one with magnets removed.
 fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64) -> Batch {
-    let lanes = if seed % 2 == 0 { LaneChoice::Wide } else { LaneChoice::Scalar };
+    let lanes = if seed.is_multiple_of(2) { LaneChoice::Wide } else { LaneChoice::Scalar };
     let mut batch = Batch::new(Arc::clone(model), ENVIRONMENTS, lanes, Some(1));
     let parameters = Model::PARAMETERS.len();
     batch.factors_mut()[parameters..2 * parameters].copy_from_slice(extremes);
@@ -146,7 +146,7 @@ fn extremes() -> impl Strategy<Value = Vec<f64>> {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(10_000))]
 
     #[test]
     fn random_valid_scenes_run(
@@ -175,7 +175,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(30))]
+    #![proptest_config(cases(1000))]
 
     #[test]
     fn large_random_scenes_run(

@@ -98,7 +98,7 @@ fn a_snapshot_of_another_scene_is_refused() {
         refuses(&mut aged(&model(preset), Wide), &snapshot, &SnapshotError::Scene);
     }
     // The same shapes, one value apart.
-    let edit = [("ground.static_friction".to_string(), Some(0.81.into()))];
+    let edit = [("gravity_m_s2".to_string(), Some(9.82.into()))];
     let scene = Scene::preset("paper-3").and_then(|scene| scene.with_values(&edit));
     let other = Arc::new(Model::compile(&scene.expect("a scene")).expect("a model"));
     refuses(&mut aged(&other, Wide), &snapshot, &SnapshotError::Scene);

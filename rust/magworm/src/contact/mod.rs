@@ -17,8 +17,8 @@ mod solve;
 pub use points::detect;
 pub use solve::{Ground, solve};
 
-/// Most unknowns that a contact point moves with: two nodes, each on a magnet of its own.
-pub const SLOTS: usize = 6;
+/// Most unknowns that a contact point moves with: x, y and θ of a magnet.
+pub const SLOTS: usize = 3;
 
 /// State of a contact point, kept as a number per lane.
 pub struct Mode;

@@ -1,9 +1,8 @@
 //! Gaps and Jacobians of the contact points.
 
 use super::{Mode, SLOTS};
-use crate::elastic::{Places, gather};
 use crate::lanes::{Isa, Real};
-use crate::model::{Contact, GroundLaw, Model};
+use crate::model::{Contact, GroundLaw, Model, Sole};
 use crate::state::Block;
 
 /// Fastest a point that starts inside the ground is pushed out [m/s].
@@ -17,67 +16,75 @@ pub fn detect<const W: usize, I: Isa<W>>(
     law: &GroundLaw,
     block: &mut Block<W>,
 ) {
-    let mut rows = [[isa.splat(0.0); 9]; 2];
     for (c, contact) in model.contacts.iter().enumerate() {
-        jacobians(isa, block, contact, &mut rows);
-        let [normal, tangential] = &rows;
+        let point = match contact.sole {
+            Sole::Foot { body, along_m, depth_m } => {
+                foot(isa, block, body, contact.stencil.dofs[0], along_m, depth_m)
+            }
+            Sole::Node { node, depth_m } => below_node(isa, block, contact, node, depth_m),
+        };
         let (v, jacobian) = (&*block.v, &mut block.jacobian[2 * SLOTS * c..]);
         let (mut u_n, mut u_t) = (isa.splat(0.0), isa.splat(0.0));
         for slot in 0..contact.stencil.count {
             let rate = isa.load(&v[contact.stencil.dofs[slot]]);
-            u_n = u_n + normal[slot] * rate;
-            u_t = u_t + tangential[slot] * rate;
-            isa.store(normal[slot], &mut jacobian[slot]);
-            isa.store(tangential[slot], &mut jacobian[SLOTS + slot]);
+            u_n = u_n + point.normal[slot] * rate;
+            u_t = u_t + point.tangential[slot] * rate;
+            isa.store(point.normal[slot], &mut jacobian[slot]);
+            isa.store(point.tangential[slot], &mut jacobian[SLOTS + slot]);
         }
-        let approach = (gap(isa, block, contact) / model.step_s).max(isa.splat(-RECOVERY_M_S));
+        let approach = (point.gap / model.step_s).max(isa.splat(-RECOVERY_M_S));
         isa.store(approach, &mut block.approach[c]);
         first_guess(isa, law, block, c, u_n + approach, u_t);
     }
 }
 
-/// Height of the point over the ground: y − d t_x, with d the depth below the centre line.
-#[inline(always)]
-fn gap<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, contact: &Contact) -> I::F {
-    let sole = contact.sole;
-    let y = isa.load(&block.node[2 * sole.node + 1]);
-    y - isa.load(&block.tangent[2 * sole.element]) * sole.depth_m
+/// A contact point: its height over the ground, and how its velocity hangs on its unknowns.
+struct Point<F> {
+    gap: F,
+    normal: [F; SLOTS],
+    tangential: [F; SLOTS],
 }
 
-/// Rows J_n, J_t over the contact's unknowns. The point p = x − d n turns with its element,
-/// δn = −t δθ and δθ = n·δe/|e|, so δp = δx + (d/|e|) t (n·δe).
+/// Toe or heel at (s, −d) in the magnet's frame: p = X + s t − d n with t = (cos θ, sin θ), n = ẑ × t, so
+/// ∂p_y/∂θ = s cos θ + d sin θ and ∂p_x/∂θ = −s sin θ + d cos θ.
 #[inline(always)]
-fn jacobians<const W: usize, I: Isa<W>>(
+fn foot<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W>,
+    body: usize,
+    dof: usize,
+    along_m: f64,
+    depth_m: f64,
+) -> Point<I::F> {
+    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    let cos = isa.load(&block.frame[2 * body]);
+    let sin = isa.load(&block.frame[2 * body + 1]);
+    Point {
+        gap: isa.load(&block.q[dof + 1]) + sin * along_m - cos * depth_m,
+        normal: [zero, one, cos * along_m + sin * depth_m],
+        tangential: [one, zero, cos * depth_m - sin * along_m],
+    }
+}
+
+/// A point straight below a node; where the node is the end of a magnet, it turns about its centre.
+#[inline(always)]
+fn below_node<const W: usize, I: Isa<W>>(
     isa: I,
     block: &Block<W>,
     contact: &Contact,
-    rows: &mut [[I::F; 9]; 2],
-) {
-    let sole = contact.sole;
-    let e = sole.element;
-    let places = Places { node: &block.node, q: &block.q };
-    let t = [isa.load(&block.tangent[2 * e]), isa.load(&block.tangent[2 * e + 1])];
-    let lever = isa.load(&block.inverse_length[e]) * sole.depth_m;
-    let own = usize::from(sole.node != e);
-    let normal = rows_along(isa, t, lever * t[1], 1, own);
-    let tangential = rows_along(isa, t, lever * t[0], 0, own);
-    gather(isa, places, &contact.stencil, &normal, &mut rows[0]);
-    gather(isa, places, &contact.stencil, &tangential, &mut rows[1]);
-}
-
-/// Gradient of one component of the point over the two nodes: the node itself, and the turn.
-#[inline(always)]
-fn rows_along<const W: usize, I: Isa<W>>(
-    isa: I,
-    t: [I::F; 2],
-    turn: I::F,
-    axis: usize,
-    own: usize,
-) -> [[I::F; 2]; 2] {
-    let across = [-(t[1] * turn), t[0] * turn];
-    let mut gradient = [[-across[0], -across[1]], across];
-    gradient[own][axis] = gradient[own][axis] + isa.splat(1.0);
-    gradient
+    node: usize,
+    depth_m: f64,
+) -> Point<I::F> {
+    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    let (x, y) = (isa.load(&block.node[2 * node]), isa.load(&block.node[2 * node + 1]));
+    let mut point =
+        Point { gap: y - depth_m, normal: [zero, one, zero], tangential: [one, zero, zero] };
+    if contact.stencil.body[0].is_some() {
+        let dof = contact.stencil.body_dofs[0];
+        point.normal[2] = x - isa.load(&block.q[dof]);
+        point.tangential[2] = isa.load(&block.q[dof + 1]) - y;
+    }
+    point
 }
 
 /// A point that was closed, or is about to pass through the ground, starts closed; it starts
@@ -98,7 +105,9 @@ fn first_guess<const W: usize, I: Isa<W>>(
     let slow = u_t.abs().le(isa.splat(law.transition_speed_m_s));
     let sliding = isa.splat(Mode::SLIDE_FORWARD).copysign(u_t);
     let moving = I::F::select(slow, isa.splat(Mode::STICK), sliding);
-    isa.store(I::F::select(closed, moving, isa.splat(Mode::OPEN)), &mut block.mode[c]);
+    let guess = I::F::select(closed, moving, isa.splat(Mode::OPEN));
+    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
+    isa.store(I::F::select(running, guess, before), &mut block.mode[c]);
     let stuck = before.eq(isa.splat(Mode::STICK));
     let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);
     let tangential = I::F::select(stuck, isa.load(&block.tangential[c]), zero);

@@ -94,8 +94,9 @@ pub fn add_rank_one<const W: usize, I: Isa<W>>(
     gradient: &[I::F],
     weight: I::F,
 ) {
-    // The usual sizes unrolled: free nodes, and nodes next to a magnet.
+    // The usual sizes unrolled: a magnet, free nodes, and nodes next to a magnet.
     match stencil.count {
+        3 => rank_one::<W, I, 3>(isa, matrix, stencil, gradient, weight),
         4 => rank_one::<W, I, 4>(isa, matrix, stencil, gradient, weight),
         5 => rank_one::<W, I, 5>(isa, matrix, stencil, gradient, weight),
         6 => rank_one::<W, I, 6>(isa, matrix, stencil, gradient, weight),

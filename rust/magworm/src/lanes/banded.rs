@@ -2,13 +2,14 @@
 //!
 //! A matrix is stored by rows of its lower half: row r holds columns r − h … r, h the half-bandwidth.
 //! Above the first and below the last row stand h ghost rows of zeros, so that no loop has to know where
-//! the matrix ends. The half-bandwidth is one of three, known when the kernels are compiled: inner
+//! the matrix ends. The half-bandwidth is one of four, known when the kernels are compiled: inner
 //! loops unroll and their numbers stay in registers.
 
 use super::Isa;
 
-/// Half-bandwidths that kernels are compiled for: rods, worms, and magnets next to each other.
-const COMPILED: [usize; 3] = [5, 6, 8];
+/// Half-bandwidths that kernels are compiled for: rods, worms, magnets next to each other, and nodes that
+/// multipliers tie to a magnet from both sides.
+const COMPILED: [usize; 4] = [5, 6, 8, 10];
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,12 +27,12 @@ impl Band {
     /// Makes room for entries between all pairs of the given unknowns.
     ///
     /// # Panics
-    /// If two of them are more than eight apart: no stencil reaches further.
+    /// If two of them are more than ten apart: no stencil reaches further.
     pub fn couple(&mut self, dofs: &[usize]) {
         let (Some(lowest), Some(highest)) = (dofs.iter().min(), dofs.iter().max()) else { return };
         let needed = self.half_bandwidth.max(highest - lowest);
         let compiled = COMPILED.into_iter().find(|&h| h >= needed);
-        self.half_bandwidth = compiled.expect("a stencil reaches no further than eight unknowns");
+        self.half_bandwidth = compiled.expect("a stencil reaches no further than ten unknowns");
     }
 
     /// Number of rows.
@@ -62,7 +63,8 @@ impl Band {
         match self.half_bandwidth {
             5 => factor::<W, I, 5, 6>(isa, self.size, matrix),
             6 => factor::<W, I, 6, 7>(isa, self.size, matrix),
-            _ => factor::<W, I, 8, 9>(isa, self.size, matrix),
+            8 => factor::<W, I, 8, 9>(isa, self.size, matrix),
+            _ => factor::<W, I, 10, 11>(isa, self.size, matrix),
         }
     }
 
@@ -77,7 +79,8 @@ impl Band {
         match self.half_bandwidth {
             5 => solve::<W, I, 5, 6>(isa, factored, right),
             6 => solve::<W, I, 6, 7>(isa, factored, right),
-            _ => solve::<W, I, 8, 9>(isa, factored, right),
+            8 => solve::<W, I, 8, 9>(isa, factored, right),
+            _ => solve::<W, I, 10, 11>(isa, factored, right),
         }
     }
 }
@@ -178,8 +181,8 @@ mod tests {
         #[test]
         fn solves_like_a_dense_factorisation(
             numbers in prop::collection::vec(-1.0..1.0f64, 97),
-            span in 1usize..9,
-            size in 9usize..30,
+            span in 1usize..11,
+            size in 11usize..30,
         ) {
             let mut band = Band::diagonal(size);
             band.couple(&[0, span]);

@@ -181,6 +181,13 @@ impl Stencil {
         this
     }
 
+    /// The stencil of a magnet itself.
+    pub fn of_body(coordinates: &Coordinates, body: usize) -> Self {
+        let mut this = Self::new(coordinates, &[]);
+        this.slot_of(coordinates.bodies[body], 3);
+        this
+    }
+
     /// Looks the places of its entries up, once the shape of the matrix is known.
     pub fn locate(&mut self, band: &Band) {
         let mut place = 0;

@@ -39,15 +39,29 @@ pub struct MeshMagnet {
     pub present: bool,
 }
 
-/// A point of the underside: below `node`, at right angles to `element`.
+/// A point of the underside.
+///
+/// Toe and heel of a foot move rigidly with its magnet. Hung on the light elements at the ends of the
+/// foot instead, a point with friction above |e|/d would jam: pushing it back would press it down harder
+/// (the paradox of Painlevé), and explicit steps would chatter.
 #[derive(Clone, Copy, Debug)]
-pub struct Sole {
-    /// The node above the point.
-    pub node: usize,
-    /// The element whose normal the point follows; `node` is one of its ends.
-    pub element: usize,
-    /// Distance from the centre line [m].
-    pub depth_m: f64,
+pub enum Sole {
+    /// Toe or heel of a foot, rigidly with its magnet.
+    Foot {
+        /// The magnet.
+        body: usize,
+        /// Distance from its centre along the foot, towards the tail [m].
+        along_m: f64,
+        /// Distance below its centre [m].
+        depth_m: f64,
+    },
+    /// Straight below a node of a rod; thin rods, so that the turn of the section does not matter.
+    Node {
+        /// The node.
+        node: usize,
+        /// Distance below it [m].
+        depth_m: f64,
+    },
 }
 
 /// A stretch of equal section.
@@ -93,7 +107,6 @@ impl Mesh {
         let mut segments = Vec::new();
         let mut soles = Vec::new();
         for foot in 0..worm.magnets {
-            let head = count_elements(&segments);
             segments.push(foot_end(()));
             segments.push(Segment {
                 length_m: magnet_length_m,
@@ -102,10 +115,10 @@ impl Mesh {
                 magnet: Some(foot),
             });
             segments.push(foot_end(()));
-            let tail = count_elements(&segments);
             let depth_m = 0.5 * worm.foot_thickness_m;
-            soles.push(Sole { node: head, element: head, depth_m });
-            soles.push(Sole { node: tail, element: tail - 1, depth_m });
+            for along_m in [-0.5 * worm.foot_length_m, 0.5 * worm.foot_length_m] {
+                soles.push(Sole::Foot { body: foot, along_m, depth_m });
+            }
             if foot + 1 < worm.magnets {
                 segments.push(Segment {
                     length_m: worm.pitch_m - worm.foot_length_m,
@@ -194,9 +207,7 @@ fn count_elements(segments: &[Segment]) -> usize {
     segments.iter().map(|s| s.parts).sum()
 }
 
-/// One point below every node. Each follows the element on the side of the nearer end, which keeps
-/// the two halves mirror images.
+/// One point below every node.
 fn rod_soles(elements: usize, depth_m: f64) -> Vec<Sole> {
-    let element = |node: usize| if 2 * node < elements { node } else { node - 1 };
-    (0..=elements).map(|node| Sole { node, element: element(node), depth_m }).collect()
+    (0..=elements).map(|node| Sole::Node { node, depth_m }).collect()
 }

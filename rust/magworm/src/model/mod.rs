@@ -13,6 +13,7 @@ pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 
 use crate::drive::DriveModel;
 use crate::lanes::banded::Band;
+use crate::lanes::math::sin_cos;
 use crate::scene::{Integrator, Parameter, Scene, SceneError};
 
 /// A compiled scene.
@@ -120,7 +121,7 @@ pub struct Bend {
 pub struct Contact {
     /// Where it is.
     pub sole: Sole,
-    /// The unknowns it moves with: those of the two nodes of its element.
+    /// The unknowns it moves with: those of its magnet, or of its node.
     pub stencil: Stencil,
 }
 
@@ -139,7 +140,10 @@ impl Model {
         let coordinates = Coordinates::new(&mesh, unknowns);
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
-        let mut contacts = contact_points(&mesh, &coordinates);
+        let mut contacts = match scene.ground {
+            Some(_) => contact_points(&mesh, &coordinates),
+            None => Vec::new(),
+        };
         let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
         let band = band(&coordinates, &stretch, &bend, &contacts);
         let in_matrix = coordinates.ties.is_empty();
@@ -219,7 +223,8 @@ impl Program {
 
 fn gravity(scene: &Scene) -> [f64; 2] {
     let incline = scene.ground.as_ref().map_or(0.0, |g| g.incline_deg.to_radians());
-    [scene.gravity_m_s2 * incline.sin(), -scene.gravity_m_s2 * incline.cos()]
+    let (sin, cos) = sin_cos(incline);
+    [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos]
 }
 
 fn typical_node_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
@@ -270,7 +275,10 @@ fn contact_points(mesh: &Mesh, coordinates: &Coordinates) -> Vec<Contact> {
         .iter()
         .map(|&sole| Contact {
             sole,
-            stencil: Stencil::new(coordinates, &[sole.element, sole.element + 1]),
+            stencil: match sole {
+                Sole::Foot { body, .. } => Stencil::of_body(coordinates, body),
+                Sole::Node { node, .. } => Stencil::new(coordinates, &[node]),
+            },
         })
         .filter(|contact| contact.stencil.count > 0)
         .collect()

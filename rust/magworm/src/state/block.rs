@@ -1,6 +1,7 @@
 //! W environments of one model, one per lane.
 
 use super::rows::Rows;
+use crate::lanes::math::sin_cos;
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -127,7 +128,7 @@ pub struct Block<const W: usize> {
     pub solution: Rows<W>,
     /// Accepted velocities of this step, shape [unknowns].
     pub next: Rows<W>,
-    /// Jacobians of the contacts, normal then tangential, shape [contacts × 2 × 6].
+    /// Jacobians of the contacts, normal then tangential, shape [contacts × 2 × 3].
     pub jacobian: Rows<W>,
     /// Normal velocity that a contact must reach at least [m/s], shape [contacts].
     pub approach: Rows<W>,
@@ -229,8 +230,8 @@ impl<const W: usize> Block<W> {
             Anchor::Rigid { body, side } => {
                 let dof = model.coordinates.bodies[body];
                 let arm = f64::from(side) * model.half_magnet_m;
-                let angle = self.q[dof + 2][lane];
-                [self.q[dof][lane] + arm * angle.cos(), self.q[dof + 1][lane] + arm * angle.sin()]
+                let (sin, cos) = sin_cos(self.q[dof + 2][lane]);
+                [self.q[dof][lane] + arm * cos, self.q[dof + 1][lane] + arm * sin]
             }
             Anchor::Fixed => [self.held[2 * node][lane], self.held[2 * node + 1][lane]],
         }
