@@ -59,6 +59,7 @@ settle_s = 0.1
 measure_s = 0.4
 [search]
 seeds = 2
+scouts = 8
 population = 6
 control_points = 3
 settle_s = 0.1

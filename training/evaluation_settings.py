@@ -44,6 +44,7 @@ class SearchBudget:
     Attributes:
         seeds: Independent searches.
         control_points: Control points of a stroke.
+        scouts: Random strokes tried before.
         population: Strokes for each generation.
         starts: Trials of each stroke.
         settle_s: Time before the speed is measured [s].
@@ -53,8 +54,9 @@ class SearchBudget:
 
     seeds: int = 3
     control_points: int = 6
+    scouts: int = 512
     population: int = 16
-    starts: int = 1
+    starts: int = 2
     settle_s: float = 0.5
     measure_s: float = 3.0
     each_robot: bool = False

@@ -10,6 +10,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from tqdm import tqdm
 
 MM_PER_M = 1000.0
+TENTHS = 10
 
 
 class LearningCurve(BaseCallback):
@@ -77,7 +78,7 @@ class Checkpoints(BaseCallback):
 
 
 class Bar(BaseCallback):
-    """Shows a progress bar with the latest speed, on a terminal only.
+    """Shows a progress bar with the latest speed; away from a terminal, a line for each tenth.
 
     Args:
         title: Text in front of the bar.
@@ -94,6 +95,7 @@ class Bar(BaseCallback):
         self._row = row
 
     def _on_training_start(self) -> None:
+        self._tenth = TENTHS * self.num_timesteps // self._total
         self._bar = tqdm(
             total=self._total,
             initial=self.num_timesteps,
@@ -105,9 +107,13 @@ class Bar(BaseCallback):
         )
 
     def _on_rollout_end(self) -> None:
+        speed = f"{MM_PER_M * self._curve[-1][1]:.1f} mm/s" if self._curve else ""
+        tenth = TENTHS * self.num_timesteps // self._total
+        if self._bar.disable and tenth > self._tenth:
+            print(f"{self._title}: {self.num_timesteps} of {self._total} steps  {speed}", flush=True)
+        self._tenth = tenth
+        self._bar.set_postfix_str(speed, refresh=False)
         self._bar.update(self.num_timesteps - self._bar.n)
-        if self._curve:
-            self._bar.set_postfix_str(f"{MM_PER_M * self._curve[-1][1]:.1f} mm/s", refresh=False)
 
     def _on_training_end(self) -> None:
         self._bar.close()

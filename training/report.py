@@ -174,6 +174,7 @@ def _search_text(comparison: Comparison) -> str:
         f"CMA-ES (library cmaes): {search.seeds} independent searches of a periodic trajectory of all three "
         f"actions, {search.control_points} control points, period 0.1 to 1.5 s, each with the "
         f"{comparison.policies.simulated_s:.0f} simulated seconds of one training, {search.population} "
-        f"strokes a generation. Sweeps: {sweep.speeds} drive speeds up to the limit; the shuttle also over "
-        "stroke, offset and return."
+        f"strokes a generation, begun at the best of {search.scouts} random ones. Sweeps: {sweep.speeds} "
+        "drive speeds up to the limit; the shuttle also over stroke, offset and return; the tow over place "
+        "and height."
     )

@@ -110,6 +110,7 @@ def searched_stroke(
     """
     settings = SearchSettings(
         control_points=budget.control_points,
+        scouts=budget.scouts,
         population=budget.population,
         starts=budget.starts,
         trial=Trial(budget.settle_s, budget.measure_s),

@@ -13,7 +13,8 @@ from magworm_gym.baselines.trial import Trial, crawl_speed_m_s
 
 Floats = NDArray[np.float64]
 
-FIRST_SIGMA = 0.5
+FIRST_SIGMA = 0.3
+LEAST_PROGRESS = 0.002
 SEED_LIMIT = 2**31
 
 
@@ -23,15 +24,24 @@ class SearchSettings:
 
     Attributes:
         control_points: Control points of a stroke K.
+        scouts: Random strokes tried first; each evolution begins at the best one not yet used.
         population: Strokes for each generation.
         starts: Trials of each stroke, with different seeds.
+        patience: Generations without progress after which an evolution is given up.
         trial: How a speed is measured during the search.
     """
 
     control_points: int = 6
+    scouts: int = 512
     population: int = 16
-    starts: int = 1
+    starts: int = 2
+    patience: int = 30
     trial: Trial = field(default_factory=lambda: Trial(settle_s=0.5, measure_s=3.0))
+
+    @property
+    def scouting_s(self) -> float:
+        """Simulated time of trying the scouts [s]."""
+        return self.scouts * self.starts * self.trial.duration_s
 
     @property
     def generation_s(self) -> float:
@@ -66,12 +76,12 @@ def search_stroke(
 ) -> SearchResult:
     """Searches the best periodic stroke; a generation is one batch.
 
-    A search that has converged starts again from a random place,
-    until the budget of simulated time is spent.
+    Random strokes are tried first, and the evolution begins at the best of them. One that makes no
+    progress is followed by another, from the next best, until the budget of simulated time is spent.
 
     Args:
         scene: Scene with a controlled drive.
-        budget_s: Simulated time to spend [s]; at least one generation runs.
+        budget_s: Simulated time to spend [s], scouting included; at least one generation runs.
         seed: Seed of the search and of the trials.
         settings: Settings of the search; None for the defaults.
         present: Which body magnets are in place (M,); None for all.
@@ -85,19 +95,22 @@ def search_stroke(
         ValueError: The scene has no controlled drive.
     """
     settings = settings or SearchSettings()
-    batch = Batch(scene, settings.population * settings.starts)
-    if present is not None:
-        batch.set_magnets_present(np.tile(present, (batch.num_envs, 1)))
     generator = np.random.default_rng(seed)
-    strategy = _strategy(settings, generator, first=True)
-    best, best_speed = np.zeros(1 + 3 * settings.control_points), -np.inf
-    spent, history = 0.0, []
-    while spent == 0.0 or spent + settings.generation_s <= budget_s:
-        if strategy.should_stop():
-            strategy = _strategy(settings, generator, first=False)
+    scouts = generator.uniform(-1.0, 1.0, (settings.scouts, 1 + 3 * settings.control_points))
+    speeds = _speeds(_batch(scene, settings.scouts, settings, present), settings, scouts, generator)
+    origins = iter(scouts[np.argsort(-speeds)])
+    best, best_speed = scouts[speeds.argmax()], float(speeds.max())
+    spent, history = settings.scouting_s, [(settings.scouting_s, best_speed)]
+    batch = _batch(scene, settings.population, settings, present)
+    strategy, record, idle = _strategy(settings, next(origins), generator), -np.inf, 0
+    while len(history) == 1 or spent + settings.generation_s <= budget_s:
+        if strategy.should_stop() or idle >= settings.patience:
+            strategy, record, idle = _strategy(settings, next(origins), generator), -np.inf, 0
         candidates = np.array([strategy.ask() for _ in range(settings.population)])
         speeds = _speeds(batch, settings, candidates, generator)
         strategy.tell(list(zip(candidates, -1e3 * speeds, strict=True)))
+        idle = 0 if speeds.max() > record + LEAST_PROGRESS * abs(record) else idle + 1
+        record = max(record, float(speeds.max()))
         if speeds.max() > best_speed:
             best, best_speed = candidates[speeds.argmax()], float(speeds.max())
         spent += settings.generation_s
@@ -108,28 +121,35 @@ def search_stroke(
     return SearchResult(stroke_from_unit(best), best_speed, times, bests)
 
 
+def _batch(scene: Scene, strokes: int, settings: SearchSettings, present: NDArray[np.bool_] | None) -> Batch:
+    """Robots for all trials of a number of strokes."""
+    batch = Batch(scene, strokes * settings.starts)
+    if present is not None:
+        batch.set_magnets_present(np.tile(present, (batch.num_envs, 1)))
+    return batch
+
+
 def _speeds(
     batch: Batch, settings: SearchSettings, candidates: Floats, generator: np.random.Generator
 ) -> Floats:
-    """Mean speed (population,) [m/s] over starts that are the same for all candidates."""
+    """Mean speed [m/s] of each candidate, over starts that are the same for all."""
     seeds = generator.integers(SEED_LIMIT, size=settings.starts, dtype=np.uint64)
     strokes = [stroke_from_unit(candidate) for candidate in candidates for _ in seeds]
-    everyone = np.tile(seeds, settings.population)
+    everyone = np.tile(seeds, len(candidates))
     measured = crawl_speed_m_s(batch, settings.trial, everyone, PeriodicStrokes(strokes))
-    return np.asarray(measured.reshape(settings.population, -1).mean(axis=1))
+    return np.asarray(measured.reshape(len(candidates), -1).mean(axis=1))
 
 
-def _strategy(settings: SearchSettings, generator: np.random.Generator, *, first: bool) -> Any:
-    """A fresh evolution strategy on the box [-1, 1]."""
+def _strategy(settings: SearchSettings, origin: Floats, generator: np.random.Generator) -> Any:
+    """A fresh evolution strategy on the box [-1, 1], around an origin."""
     try:
         import cmaes
     except ImportError as error:
         raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[train]'.") from error
-    size = 1 + 3 * settings.control_points
     return cmaes.CMA(
-        mean=np.zeros(size) if first else generator.uniform(-0.5, 0.5, size),
+        mean=origin,
         sigma=FIRST_SIGMA,
-        bounds=np.tile([-1.0, 1.0], (size, 1)),
+        bounds=np.tile([-1.0, 1.0], (len(origin), 1)),
         population_size=settings.population,
         seed=int(generator.integers(SEED_LIMIT)),
     )

@@ -350,7 +350,7 @@ fn check_start(start: Option<&[f64]>, mask: &[bool]) -> PyResult<()> {
     for (environment, row) in rows {
         let limits = [("x", 1e3, "m"), ("height", 10.0, "m"), ("angle", 1e3, "rad")];
         for (value, (name, most, unit)) in row.iter().zip(limits) {
-            if !(value.abs() <= most) {
+            if value.is_nan() || value.abs() > most {
                 return Err(value_error(format!(
                     "start {name} of environment {environment} is {value} {unit}; allowed: -{most} to {most} {unit}"
                 )));

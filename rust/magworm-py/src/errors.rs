@@ -4,7 +4,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::{PyErr, create_exception};
 
 create_exception!(
-    _magworm,
+    magworm_gym._magworm,
     SceneError,
     PyValueError,
     "A scene that cannot be simulated: names the field, the value, the unit and what is allowed."

@@ -45,7 +45,7 @@ fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>)
             factor(Parameter::DynamicFriction),
             model.step_s,
         );
-        contact::detect(isa, model, law, block);
+        contact::detect(isa, model, &ground, block);
         contact::solve(isa, model, &ground, block);
         return;
     }

@@ -1,8 +1,8 @@
 //! Gaps and Jacobians of the contact points.
 
-use super::{Mode, SLOTS};
+use super::{Ground, Mode, SLOTS};
 use crate::lanes::{Isa, Real};
-use crate::model::{Contact, GroundLaw, Model, Sole};
+use crate::model::{Contact, Model, Sole};
 use crate::state::Block;
 
 /// Fastest a point that starts inside the ground is pushed out [m/s].
@@ -13,7 +13,7 @@ const RECOVERY_M_S: f64 = 0.1;
 pub fn detect<const W: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    law: &GroundLaw,
+    ground: &Ground<I::F>,
     block: &mut Block<W>,
 ) {
     for (c, contact) in model.contacts.iter().enumerate() {
@@ -34,7 +34,7 @@ pub fn detect<const W: usize, I: Isa<W>>(
         }
         let approach = (point.gap / model.step_s).max(isa.splat(-RECOVERY_M_S));
         isa.store(approach, &mut block.approach[c]);
-        first_guess(isa, law, block, c, u_n + approach, u_t);
+        first_guess(isa, ground, block, c, u_n + approach, u_t);
     }
 }
 
@@ -87,12 +87,14 @@ fn below_node<const W: usize, I: Isa<W>>(
     point
 }
 
-/// A point that was closed, or is about to pass through the ground, starts closed; it starts
-/// sticking if it is slower than v_d, else sliding on.
+/// A point that was closed, or is about to pass through the ground, starts closed. Its speed at the start
+/// of the step decides: up to v_d it starts sticking and μ_s holds for the step, beyond it slides on
+/// against μ_d. One coefficient per step keeps the law monotone, and its limit for small steps is the
+/// paper's.
 #[inline(always)]
 fn first_guess<const W: usize, I: Isa<W>>(
     isa: I,
-    law: &GroundLaw,
+    ground: &Ground<I::F>,
     block: &mut Block<W>,
     c: usize,
     u_n: I::F,
@@ -102,12 +104,14 @@ fn first_guess<const W: usize, I: Isa<W>>(
     let before = isa.load(&block.mode[c]);
     let was_closed = !before.eq(isa.splat(Mode::OPEN));
     let closed = was_closed | u_n.lt(zero);
-    let slow = u_t.abs().le(isa.splat(law.transition_speed_m_s));
+    let slow = u_t.abs().le(ground.transition_speed);
     let sliding = isa.splat(Mode::SLIDE_FORWARD).copysign(u_t);
     let moving = I::F::select(slow, isa.splat(Mode::STICK), sliding);
     let guess = I::F::select(closed, moving, isa.splat(Mode::OPEN));
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     isa.store(I::F::select(running, guess, before), &mut block.mode[c]);
+    let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
+    isa.store(coefficient, &mut block.coefficient[c]);
     let stuck = before.eq(isa.splat(Mode::STICK));
     let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);
     let tangential = I::F::select(stuck, isa.load(&block.tangential[c]), zero);

@@ -1,7 +1,7 @@
 //! The velocities at the end of a step, with contact: an active-set iteration on one banded system.
 //!
 //! Each pass assumes a mode for every contact, solves, and checks the assumption: a closed point
-//! that would pull opens, an open one that would sink closes, a sticking one beyond μ_s λ_n + D_f Δt
+//! that would pull opens, an open one that would sink closes, a sticking one beyond μ λ_n + D_f Δt
 //! slides, a sliding one whose velocity reverses sticks. The normal impulse that friction reckons with
 //! is extrapolated from the passes before; both are iterated until nothing changes. Lanes that are done are
 //! frozen, so the passes a neighbour still needs do not touch their bits.
@@ -14,8 +14,8 @@ use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
 const SETTLED: f64 = 1e-5;
-/// Passes after which a point that sticks stays so for the step. With μ_d < μ_s the law is not monotone
-/// and two points may take turns without end.
+/// Passes after which a point that sticks stays so for the step: points that share a foot may take turns
+/// without end.
 const PATIENCE: usize = 10;
 
 /// Friction and penalty of each lane in one step.
@@ -127,7 +127,8 @@ fn assemble_right<const W: usize, I: Isa<W>>(
         let open = mode.eq(isa.splat(Mode::OPEN));
         let stuck = mode.eq(isa.splat(Mode::STICK));
         let held = isa.load(&block.warm[2 * c]) - ground.weight * isa.load(&block.approach[c]);
-        let friction = ground.dynamic_friction * isa.load(&block.reckoned[c]) + ground.adhesion;
+        let coefficient = isa.load(&block.coefficient[c]);
+        let friction = coefficient * isa.load(&block.reckoned[c]) + ground.adhesion;
         let sliding =
             I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
         let impulses = [I::F::select(open, zero, held), I::F::select(open, zero, sliding)];
@@ -192,6 +193,7 @@ fn update_modes<const W: usize, I: Isa<W>>(
             normal: isa.load(&block.warm[2 * c]) - ground.weight * u_n,
             held: isa.load(&block.warm[2 * c + 1]) - ground.weight * u_t,
             reckoned: isa.load(&block.reckoned[c]),
+            coefficient: isa.load(&block.coefficient[c]),
             u_n,
             u_t,
         };
@@ -246,6 +248,8 @@ struct Point<F> {
     held: F,
     /// λ_n that friction reckoned with.
     reckoned: F,
+    /// μ of this step.
+    coefficient: F,
     u_n: F,
     u_t: F,
 }
@@ -279,7 +283,7 @@ impl<F: Real> Point<F> {
 
         // Closed points: open where they would pull, else hold or slide. Friction opposes sliding.
         let normal = self.normal.max(zero);
-        let limit = ground.static_friction * normal + ground.adhesion;
+        let limit = self.coefficient * normal + ground.adhesion;
         let slips = self.held.abs().gt(limit);
         let sliding = if may_slip { forward.copysign(-self.held) } else { stick };
         let from_stick = F::select(slips, sliding, stick);
@@ -290,7 +294,7 @@ impl<F: Real> Point<F> {
 
         let mode = F::select(is_open, from_open, from_closed);
         let normal = F::select(is_open, zero, normal);
-        let friction = ground.dynamic_friction * normal + ground.adhesion;
+        let friction = self.coefficient * normal + ground.adhesion;
         let sliding = -friction.copysign(mode);
         let tangential = F::select(mode.eq(stick), self.held, sliding);
         let tangential = F::select(mode.eq(open) | is_open, zero, tangential);

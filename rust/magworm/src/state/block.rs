@@ -132,6 +132,8 @@ pub struct Block<const W: usize> {
     pub jacobian: Rows<W>,
     /// Normal velocity that a contact must reach at least [m/s], shape [contacts].
     pub approach: Rows<W>,
+    /// Coefficient of friction in this step, shape [contacts].
+    pub coefficient: Rows<W>,
     /// Normal impulse that friction reckons with [N·s], shape [contacts].
     pub reckoned: Rows<W>,
     /// Normal impulse reckoned with, and found, in the pass before [N·s], shape [contacts × 2].
@@ -177,6 +179,7 @@ impl<const W: usize> Block<W> {
             next: zeros(unknowns),
             jacobian: zeros(contacts * 2 * crate::contact::SLOTS),
             approach: zeros(contacts),
+            coefficient: zeros(contacts),
             reckoned: zeros(contacts),
             earlier: zeros(2 * contacts),
             warm: zeros(2 * contacts),

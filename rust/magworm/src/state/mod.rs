@@ -5,8 +5,10 @@ mod block;
 mod pool;
 mod rows;
 mod snapshot;
+mod view;
 
-pub use batch::{Batch, LaneChoice, StepOutput, View};
+pub use batch::{Batch, LaneChoice, StepOutput};
 pub use block::{Block, Counters, Status};
 pub use rows::Rows;
 pub use snapshot::SnapshotError;
+pub use view::View;

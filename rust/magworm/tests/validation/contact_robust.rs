@@ -100,7 +100,7 @@ fn pass(case: Case) -> World {
 /// A pass of the drive under the robot over friction 0 to 10, 1 kPa to 10 GPa, retardation 0 to 1 s and steps of
 /// 10 µs to 50 ms. Nothing becomes infinite; a robot of 50 kPa or more does not break, nor does any part of it
 /// move faster than 3 m/s, what a fall from half a metre gives; friction stays within Coulomb's cone and never
-/// drives in 99 % of the steps (the iterations are bounded, so some steps may end on the way).
+/// drives, but for one step and 1 % of them (the iterations are bounded, so some steps may end on the way).
 #[test]
 fn validates_robust_contact() {
     let (mut failures, mut sums) = (0, [0; 4]);
@@ -112,7 +112,7 @@ fn validates_robust_contact() {
         (0..4).for_each(|k| sums[k] += counts[k]);
         let broken =
             run.status == Status::NotFinite || modulus > 5e4 && run.status != Status::Running;
-        if broken || run.fastest > 3.0 || 100 * run.beyond.max(run.driving) > run.steps {
+        if broken || run.fastest > 3.0 || run.beyond.max(run.driving) > 1 + run.steps / 100 {
             println!(
                 "Δt {step} E {modulus:.0e} μ {fixed}/{moving} τ {damping}: {:?}, {:.2} m/s, {} beyond, {} driven of {} steps",
                 run.status, run.fastest, run.beyond, run.driving, run.steps

@@ -39,8 +39,10 @@ fn pass(edits: &[(&str, &str)]) -> (f64, f64) {
     (peak, start - world.block.centre_x(&world.model, 0))
 }
 
+/// Kelvin–Voigt damping makes the explicit scheme stable below 2/(ω²τ): for the bending of a bridge, with
+/// ω² = 16 (E/ρ)(h²/12)/l⁴, elements of l = 1.5 mm, h = 4 mm and τ = 8 ms, that is 1.3 µs.
 const EXPLICIT: [(&str, &str); 2] =
-    [("solver.integrator", "'explicit'"), ("solver.step_s", "5e-6")];
+    [("solver.integrator", "'explicit'"), ("solver.step_s", "1e-6")];
 
 fn relative(a: f64, b: f64) -> f64 {
     a / b - 1.0
