@@ -315,7 +315,7 @@ def test_intervals() -> None:
 )
 def test_verdict_says_who_won(learned: float, sentence: str) -> None:
     speeds = {"learned policy": learned, "belt, 125 mm pitch": 0.006, "belt, 170 mm pitch": 0.005}
-    speeds |= {"CMA-ES stroke": 0.02, "tow": 0.0001}
+    speeds |= {"shuttle": 0.01, "CMA-ES stroke": 0.02, "tow": 0.0001}
     results = [
         Result({"drive": drive}, Interval(speed, speed - 2e-4, speed + 2e-4, 3))
         for drive, speed in speeds.items()

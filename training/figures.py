@@ -70,7 +70,7 @@ def draw_speed_curves(path: Path, comparison: Comparison, results: list[Result])
                 axes.axhspan(speed.low, speed.high, color=COLOURS[title], alpha=0.15, lw=0)
         axes.set_xlabel("speed of the belt, or of the work stroke [mm/s]")
         axes.set_ylabel("crawling speed [mm/s]")
-        axes.legend(frameon=False, fontsize=9)
+        axes.legend(frameon=False, fontsize=9, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
 def draw_learning_curves(path: Path, comparison: Comparison, results: list[Result]) -> None:

@@ -79,14 +79,15 @@ def robots_table(comparison: Comparison, by_robot: dict[str, list[Result]]) -> s
 
 
 def verdict(results: list[Result]) -> str:
-    """Says in words how the learned policy compares with the best belt and the best stroke."""
+    """Says in words how the learned policy compares with belt, shuttle and open-loop stroke."""
     learned = _of(results, "learned policy")
     belts = [result for result in results if result.row["drive"].startswith("belt")]
     best_belt = max(belts, key=lambda result: result.speed_m_s.value)
     stroke = _of(results, "CMA-ES stroke")
     texts = [
         _against(learned.speed_m_s, best_belt.speed_m_s, "the best constant-speed belt"),
-        _against(learned.speed_m_s, stroke.speed_m_s, "the best open-loop stroke"),
+        _against(learned.speed_m_s, _of(results, "shuttle").speed_m_s, "the best shuttle"),
+        _against(learned.speed_m_s, stroke.speed_m_s, "the best open-loop stroke of CMA-ES"),
     ]
     tow = _of(results, "tow").speed_m_s.value
     if tow > TOWED_SHARE * max(learned.speed_m_s.value, best_belt.speed_m_s.value):
@@ -110,7 +111,8 @@ def report(comparison: Comparison, by_robot: dict[str, list[Result]], training_t
         f"{conditions.trial.settle_s:g} s of settling, from {conditions.starts} starts with the same seeds "
         "for every drive (belts: spread over one pitch). Interquartile mean and 95 % percentile bootstrap "
         "interval over the samples of the last column: starts of a drive with fixed settings, seeds of one "
-        "that is trained or searched (each seed's sample is its mean over all starts). Body length "
+        "that is trained or searched (each seed's sample is its mean over all starts); over fewer than five "
+        "samples an interval is hardly more than their range. Body length "
         f"{MM_PER_M * scene.body_length_m:.0f} mm.",
     ]
     if len(by_robot) > 1:

@@ -13,7 +13,7 @@ from magworm_gym.baselines.trial import Trial, crawl_speed_m_s
 
 Floats = NDArray[np.float64]
 
-FIRST_SIGMA = 0.3
+FIRST_SIGMA = 0.15
 LEAST_PROGRESS = 0.002
 SEED_LIMIT = 2**31
 
@@ -24,7 +24,8 @@ class SearchSettings:
 
     Attributes:
         control_points: Control points of a stroke K.
-        scouts: Random strokes tried first; each evolution begins at the best one not yet used.
+        scouts: Random strokes tried first, half of them to and fro between two actions; each
+            evolution begins at the best one not yet used.
         population: Strokes for each generation.
         starts: Trials of each stroke, with different seeds.
         patience: Generations without progress after which an evolution is given up.
@@ -96,7 +97,7 @@ def search_stroke(
     """
     settings = settings or SearchSettings()
     generator = np.random.default_rng(seed)
-    scouts = generator.uniform(-1.0, 1.0, (settings.scouts, 1 + 3 * settings.control_points))
+    scouts = _scouts(generator, settings)
     speeds = _speeds(_batch(scene, settings.scouts, settings, present), settings, scouts, generator)
     origins = iter(scouts[np.argsort(-speeds)])
     best, best_speed = scouts[speeds.argmax()], float(speeds.max())
@@ -119,6 +120,20 @@ def search_stroke(
             progress(spent)
     times, bests = np.array(history).T
     return SearchResult(stroke_from_unit(best), best_speed, times, bests)
+
+
+def _scouts(generator: np.random.Generator, settings: SearchSettings) -> Floats:
+    """Random strokes (scouts, 1 + 3 K): half of them anything, half of them to and fro.
+
+    To and fro means one action for a part of the period and another one for the rest.
+    """
+    count, points = settings.scouts, settings.control_points
+    scouts = generator.uniform(-1.0, 1.0, (count, 1 + 3 * points))
+    for row in range(count // 2):
+        forth, back = generator.uniform(-1.0, 1.0, (2, 3))
+        part = generator.integers(1, max(points, 2))
+        scouts[row, 1:] = np.where(np.arange(points)[:, None] < part, forth, back).ravel()
+    return scouts
 
 
 def _batch(scene: Scene, strokes: int, settings: SearchSettings, present: NDArray[np.bool_] | None) -> Batch:

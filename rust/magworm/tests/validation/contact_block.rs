@@ -86,6 +86,41 @@ fn validates_friction_angle() {
     assert!(failures.is_empty(), "{failures:?}");
 }
 
+/// Feet and whole robots, whose toes and heels feel the moment of friction at the sole and so share the weight
+/// unequally: on 0.5° less than arctan 0.8 they hold, landing from 1 µm above or lying there; on 0.5° more they slide.
+#[test]
+fn validates_friction_angle_of_feet() {
+    let one = ("body.magnets", "1");
+    let filled = ("magnet.length_m", "0.014");
+    let tall = ("body.foot_thickness_m", "0.02");
+    let bodies: [(&str, &[(&str, &str)]); 4] = [
+        ("one foot", &[one]),
+        ("one foot, all magnet", &[one, filled]),
+        ("one tall foot, all magnet", &[one, filled, tall]),
+        ("paper-3", &[]),
+    ];
+    let mut failures = Vec::new();
+    for (name, body) in bodies {
+        for height in ["0.0", "1e-6"] {
+            let [below, above] = [-0.5, 0.5].map(|by| {
+                let angle = number(0.8f64.atan().to_degrees() + by);
+                let law = [("ground.static_friction", "0.8"), ("ground.dynamic_friction", "0.6")];
+                let mut edits = vec![law[0], law[1], ("drive", ""), ("start.height_m", height)];
+                edits.push(("ground.incline_deg", &angle));
+                edits.extend_from_slice(body);
+                creep(&mut World::new("paper-3", &edits))
+            });
+            println!(
+                "friction angle ∓ 0.5°, {name} from {height} m: creep {below:.1e} m/s below, {above:.1e} above"
+            );
+            if below.abs() > 1e-9 || above < 1e-3 {
+                failures.push((name, height));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:?}");
+}
+
 /// Above the friction angle a block slides with exactly g (sin α − μ_d cos α): 1e-6 of it once its vibrations
 /// have died out. D_f takes n D_f/m off.
 #[test]
