@@ -92,7 +92,8 @@ fn validates_friction_angle() {
 fn validates_friction_angle_of_feet() {
     let one = ("body.magnets", "1");
     let filled = ("magnet.length_m", "0.014");
-    let tall = ("body.foot_thickness_m", "0.02");
+    // 12 mm on 14 mm: tips over at arctan(14/12) only.
+    let tall = ("body.foot_thickness_m", "0.012");
     let bodies: [(&str, &[(&str, &str)]); 4] = [
         ("one foot", &[one]),
         ("one foot, all magnet", &[one, filled]),
@@ -106,6 +107,7 @@ fn validates_friction_angle_of_feet() {
                 let angle = number(0.8f64.atan().to_degrees() + by);
                 let law = [("ground.static_friction", "0.8"), ("ground.dynamic_friction", "0.6")];
                 let mut edits = vec![law[0], law[1], ("drive", ""), ("start.height_m", height)];
+                edits.push(("ground.adhesion_n", "0.0"));
                 edits.push(("ground.incline_deg", &angle));
                 edits.extend_from_slice(body);
                 creep(&mut World::new("paper-3", &edits))
