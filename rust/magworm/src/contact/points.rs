@@ -106,7 +106,10 @@ fn first_guess<const W: usize, I: Isa<W>>(
     let closed = was_closed | u_n.lt(zero);
     let slow = u_t.abs().le(ground.transition_speed);
     let sliding = isa.splat(Mode::SLIDE_FORWARD).copysign(u_t);
-    let moving = I::F::select(slow, isa.splat(Mode::STICK), sliding);
+    // One that slid goes on until its velocity reverses: a guess that it sticks would ask for its whole
+    // momentum within one step, which no friction has.
+    let slid = before.abs().eq(isa.splat(Mode::SLIDE_FORWARD));
+    let moving = I::F::select(slow & !slid, isa.splat(Mode::STICK), sliding);
     let guess = I::F::select(closed, moving, isa.splat(Mode::OPEN));
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     isa.store(I::F::select(running, guess, before), &mut block.mode[c]);

@@ -14,8 +14,8 @@ use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
 const SETTLED: f64 = 1e-5;
-/// Passes after which a point that sticks stays so for the step: points that share a foot may take turns
-/// without end.
+/// Passes in which all points may change their mode at once. Points that share a foot may then take turns
+/// without end, so from here on one point changes in a pass, each in its turn.
 const PATIENCE: usize = 10;
 
 /// Friction and penalty of each lane in one step.
@@ -49,7 +49,7 @@ impl<F: Real> Ground<F> {
             transition_speed: one * law.transition_speed_m_s,
             weight: one * law.weight_kg,
             // A ten-millionth of a node's weight over the step.
-            negligible: one * (law.weight_kg * 1e-8 * 1e-7 * 9.81 * dt),
+            negligible: one * (law.node_mass_kg * 1e-7 * 9.81 * dt),
         }
     }
 }
@@ -74,7 +74,7 @@ pub fn solve<const W: usize, I: Isa<W>>(
         model.band.solve(isa, &block.factor, &mut block.solution);
         block.counters.solves += 1;
         accept(isa, block, done);
-        let change = update_modes(isa, model, ground, block, done, pass < PATIENCE);
+        let change = update_modes(isa, model, ground, block, done, pass);
         done = done | !(change.modes | change.impulses);
         refactor = (change.modes & !done).any();
         if done.all() {
@@ -176,7 +176,7 @@ fn update_modes<const W: usize, I: Isa<W>>(
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     done: I::M,
-    may_slip: bool,
+    pass: usize,
 ) -> Change<I::M> {
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
@@ -197,7 +197,7 @@ fn update_modes<const W: usize, I: Isa<W>>(
             u_n,
             u_t,
         };
-        let after = point.after(isa, ground, may_slip);
+        let after = point.after(isa, ground);
         let moved = !after.mode.eq(point.mode);
         let closed = !after.mode.eq(isa.splat(Mode::OPEN));
         let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
@@ -205,7 +205,9 @@ fn update_modes<const W: usize, I: Isa<W>>(
         let unsettled = sliding & drift.gt(after.normal * SETTLED + ground.negligible);
         change.modes = change.modes | (moved & !done);
         change.impulses = change.impulses | (unsettled & !done);
-        store_unless(isa, done, after.mode, &mut block.mode[c]);
+        if pass < PATIENCE || pass % model.contacts.len() == c {
+            store_unless(isa, done, after.mode, &mut block.mode[c]);
+        }
         store_unless(isa, done, after.normal, &mut block.normal[c]);
         store_unless(isa, done, after.tangential, &mut block.tangential[c]);
         let next = extrapolate(isa, block, c, point.reckoned, after.normal);
@@ -267,7 +269,6 @@ impl<F: Real> Point<F> {
         &self,
         isa: I,
         ground: &Ground<F>,
-        may_slip: bool,
     ) -> After<F> {
         let zero = isa.splat(0.0);
         let (open, stick) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
@@ -285,8 +286,7 @@ impl<F: Real> Point<F> {
         let normal = self.normal.max(zero);
         let limit = self.coefficient * normal + ground.adhesion;
         let slips = self.held.abs().gt(limit);
-        let sliding = if may_slip { forward.copysign(-self.held) } else { stick };
-        let from_stick = F::select(slips, sliding, stick);
+        let from_stick = F::select(slips, forward.copysign(-self.held), stick);
         let reverses = (self.u_t * self.mode).lt(zero);
         let from_slide = F::select(reverses, stick, self.mode);
         let pulls = self.normal.lt(zero);
@@ -296,7 +296,9 @@ impl<F: Real> Point<F> {
         let normal = F::select(is_open, zero, normal);
         let friction = self.coefficient * normal + ground.adhesion;
         let sliding = -friction.copysign(mode);
-        let tangential = F::select(mode.eq(stick), self.held, sliding);
+        // Within the cone even where the passes run out: the next step starts from it.
+        let held = self.held.clamp(-limit, limit);
+        let tangential = F::select(mode.eq(stick), held, sliding);
         let tangential = F::select(mode.eq(open) | is_open, zero, tangential);
         After { mode, normal, tangential }
     }

@@ -86,9 +86,9 @@ pub struct GroundLaw {
     pub transition_speed_m_s: f64,
     /// D_f [N].
     pub adhesion_n: f64,
-    /// Weight of the penalty that holds a contact [kg]: so large against the nodal mass that the
-    /// residual velocity is far below 1e-9 m/s, so small that rounding (1e-16 · weight) leaves the
-    /// masses eight digits.
+    /// Mass of a typical node [kg].
+    pub node_mass_kg: f64,
+    /// Weight w of the penalty that holds a contact [kg], see [`penalty_weight_kg`].
     pub weight_kg: f64,
 }
 
@@ -214,7 +214,8 @@ impl Program {
                 dynamic_friction: g.dynamic_friction,
                 transition_speed_m_s: g.transition_speed_m_s,
                 adhesion_n: g.adhesion_n,
-                weight_kg: 1e8 * typical_node_mass_kg(scene, mesh),
+                node_mass_kg: typical_node_mass_kg(scene, mesh),
+                weight_kg: penalty_weight_kg(scene, mesh),
             }),
             drive,
         }
@@ -225,6 +226,17 @@ fn gravity(scene: &Scene) -> [f64; 2] {
     let incline = scene.ground.as_ref().map_or(0.0, |g| g.incline_deg.to_radians());
     let (sin, cos) = sin_cos(incline);
     [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos]
+}
+
+/// Weight of the penalty that holds a contact.
+///
+/// Large against the nodal mass m, so that the residual velocity is far below 1e-9 m/s; so small that
+/// rounding (1e-16 w) leaves the masses eight digits: w = 1e8 m. Short steps need less: the height of a
+/// point is known to about 1e-18 m, which the penalty turns into an impulse w · 1e-18 m/Δt; it must
+/// stay below 1e-5 of the impulse of weight, m g Δt, hence w ≤ 1e14 m (Δt/s)².
+fn penalty_weight_kg(scene: &Scene, mesh: &Mesh) -> f64 {
+    let step_s = scene.solver.step_s;
+    typical_node_mass_kg(scene, mesh) * (1e14 * step_s * step_s).clamp(1e2, 1e8)
 }
 
 fn typical_node_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
