@@ -1,6 +1,6 @@
 """Stable-Baselines3: the native vector environment as a ``VecEnv``.
 
-Needs the extra ``magworm-gym[training]``; ``import magworm_gym`` does not import this module.
+Needs the extra ``magworm-gym[train]``; ``import magworm_gym`` does not import this module.
 """
 
 from __future__ import annotations
