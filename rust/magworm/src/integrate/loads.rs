@@ -30,8 +30,11 @@ pub fn magnets<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
             wrench = drive_wrench(isa, magnetics, drive, block, body, dof, robot);
         }
         if let Some(field) = &program.uniform_field {
-            let torque = uniform_torque(isa, field.field_t, block, body);
-            wrench[2] = wrench[2] + torque * field.moment_per_tesla;
+            let [bx, by] = [isa.splat(field.field_t[0]), isa.splat(field.field_t[1])];
+            let cos = isa.load(&block.frame[2 * body]);
+            let sin = isa.load(&block.frame[2 * body + 1]);
+            let remanence = isa.load(&block.remanence[body]);
+            wrench[2] = wrench[2] + field.magnet.torque(bx, by, cos, sin, remanence);
         }
         for k in 0..3 {
             let entry = &mut block.right[dof + k];
@@ -69,17 +72,4 @@ fn drive_wrench<const W: usize, I: Isa<W>>(
         block.counters.wrenches += 1;
     }
     total
-}
-
-/// m × B per unit of volume/μ0: the moment points along the body's up direction (−sin θ, cos θ).
-#[inline(always)]
-fn uniform_torque<const W: usize, I: Isa<W>>(
-    isa: I,
-    field_t: [f64; 2],
-    block: &Block<W>,
-    body: usize,
-) -> I::F {
-    let cos = isa.load(&block.frame[2 * body]);
-    let sin = isa.load(&block.frame[2 * body + 1]);
-    -((sin * field_t[1] + cos * field_t[0]) * isa.load(&block.remanence[body]))
 }

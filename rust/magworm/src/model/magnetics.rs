@@ -28,11 +28,7 @@ impl Magnetics {
     pub fn new(scene: &Scene, magnet: &Magnet, drive: &Drive) -> Self {
         let source =
             Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
-        let body = Cuboid {
-            length_m: magnet.length_m,
-            height_m: magnet.height_m,
-            width_m: magnet.width_m,
-        };
+        let body = cuboid(magnet);
         let pair = match scene.solver.magnet_model {
             MagnetModel::Cuboid => {
                 PairModel::Cuboid(PlanarPair::new(source, body, scene.solver.quadrature_order))
@@ -47,4 +43,9 @@ impl Magnetics {
             drive_remanence_t: drive.remanence_t,
         }
     }
+}
+
+/// The cuboid of a body magnet.
+pub fn cuboid(magnet: &Magnet) -> Cuboid {
+    Cuboid { length_m: magnet.length_m, height_m: magnet.height_m, width_m: magnet.width_m }
 }

@@ -14,6 +14,7 @@ pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 use crate::drive::DriveModel;
 use crate::lanes::banded::Band;
 use crate::lanes::math::sin_cos;
+use crate::magnetic::UniformField;
 use crate::scene::{Integrator, Parameter, Scene, SceneError};
 
 /// A compiled scene.
@@ -58,7 +59,7 @@ pub struct Program {
     pub gravity_m_s2: Option<[f64; 2]>,
     /// Wrench of the drive magnets on the body magnets.
     pub magnetics: Option<Magnetics>,
-    /// Uniform field along x and y [T], and the moment of a body magnet per tesla of remanence [A·m²/T].
+    /// Torque of a uniform field on the body magnets.
     pub uniform_field: Option<UniformTorque>,
     /// Ground contact with friction.
     pub ground: Option<GroundLaw>,
@@ -71,8 +72,8 @@ pub struct Program {
 pub struct UniformTorque {
     /// Flux density along x and y [T].
     pub field_t: [f64; 2],
-    /// Volume / μ0 of a body magnet [A·m²/T].
-    pub moment_per_tesla: f64,
+    /// A body magnet in it.
+    pub magnet: UniformField,
 }
 
 /// Friction of the ground, see [`crate::contact`].
@@ -205,8 +206,7 @@ impl Program {
             uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| {
                 UniformTorque {
                     field_t: [field.x_t, field.y_t],
-                    moment_per_tesla: magnet.length_m * magnet.width_m * magnet.height_m
-                        / crate::magnetic::MU_0,
+                    magnet: UniformField::new(magnetics::cuboid(magnet)),
                 }
             }),
             ground: scene.ground.as_ref().map(|g| GroundLaw {
