@@ -89,7 +89,7 @@ pub struct GroundLaw {
     pub adhesion_n: f64,
     /// Mass of a typical node [kg].
     pub node_mass_kg: f64,
-    /// Weight w of the penalty that holds a contact [kg], see [`penalty_weight_kg`].
+    /// Weight w of the penalty that holds a contact [kg], see `penalty_weight_kg`.
     pub weight_kg: f64,
 }
 
