@@ -8,7 +8,7 @@
 //!
 //! A closed (or sticking) direction J is held by a multiplier and a penalty, λ = λ⁰ − w J v⁺, with λ⁰
 //! the impulse of the last step (an augmented Lagrangian). The residual velocity (λ⁰ − λ)/w
-//! vanishes in a steady state and is below 1e-9 m/s in any other. It adds w JᵀJ to the matrix, which
+//! vanishes in a steady state and is below 1e-9 m/s at the presets' step. It adds w JᵀJ to the matrix, which
 //! stays banded and positive definite even where heel and toe of a rigid foot over-determine it.
 
 mod points;
