@@ -11,6 +11,7 @@ The Stable-Baselines3 adapter is :mod:`magworm_gym.sb3`, the checker for vector 
 
 from magworm_gym._magworm import PRESETS, Batch, Scene, SceneError, __version__
 from magworm_gym.env import MagWormEnv
+from magworm_gym.recording import Recording, record_scenes
 from magworm_gym.registration import CRAWL_ID, register_environments
 from magworm_gym.scene import load_scene
 from magworm_gym.vector_env import MagWormVectorEnv
@@ -21,10 +22,12 @@ __all__ = [
     "Batch",
     "MagWormEnv",
     "MagWormVectorEnv",
+    "Recording",
     "Scene",
     "SceneError",
     "__version__",
     "load_scene",
+    "record_scenes",
 ]
 
 register_environments()

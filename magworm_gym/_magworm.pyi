@@ -17,6 +17,7 @@ __all__ = [
     "_rebuild_batch",
     "cuboid_field",
     "cuboid_wrench",
+    "record_scenes",
 ]
 
 __version__: str
@@ -171,3 +172,16 @@ def cuboid_wrench(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Force (P, 3) [N] and torque (P, 3) [N·m] on bodies at positions (P, 3) [m] with orientations
     (P, 4) w, x, y, z and remanences (P, 3) [T]; order 1 to 10; model "cuboid" or "dipole"."""
+
+def record_scenes(
+    scenes: Sequence[Scene],
+    duration_s: Sequence[float],
+    sample_s: float,
+    *,
+    nodes: bool = False,
+    threads: int | None = None,
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], int]]:
+    """Runs each scene once from its start pose, all of them side by side. For each: magnet poses
+    (T, M, 3), drive positions (T, D, 2), nodes (T, K, 2; K is 0 where they are not asked for), status
+    at the end. A controlled drive stands still. Raises ValueError for times that are no whole number
+    of steps."""

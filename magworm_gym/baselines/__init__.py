@@ -9,12 +9,12 @@
 
 from magworm_gym.baselines.belt import PAPER_PITCHES_M, BeltCurve, belt_scene, belt_starts, sweep_belt
 from magworm_gym.baselines.controller import Controller, Still, UniformlyRandom
-from magworm_gym.baselines.recording import Recording
 from magworm_gym.baselines.search import SearchResult, SearchSettings, search_stroke
 from magworm_gym.baselines.shuttle import Shuttle, ShuttleCurve, sweep_shuttle
 from magworm_gym.baselines.stroke import PeriodicStrokes, Stroke, stroke_from_unit
 from magworm_gym.baselines.tow import Tow, TowCurve, sweep_tow
 from magworm_gym.baselines.trial import Trial, centre_x_m, crawl_speed_m_s, record
+from magworm_gym.recording import Recording
 
 __all__ = [
     "PAPER_PITCHES_M",

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch
 from magworm_gym.baselines.controller import Controller
-from magworm_gym.baselines.recording import Recording
+from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.baselines.recording import Recording
+from magworm_gym.recording import Recording
 from magworm_gym.render.animation import stacked
 from magworm_gym.render.side_view import SideView
 

@@ -4,6 +4,7 @@ mod arrays;
 mod batch;
 mod errors;
 mod magnet;
+mod record;
 mod scene;
 
 use pyo3::prelude::*;
@@ -17,6 +18,8 @@ mod _magworm {
     use crate::errors::SceneError;
     #[pymodule_export]
     use crate::magnet::{cuboid_field, cuboid_wrench};
+    #[pymodule_export]
+    use crate::record::record_scenes;
     #[pymodule_export]
     use crate::scene::Scene;
 

@@ -16,6 +16,7 @@
 //! | [`drive`] | motion of the drive magnets |
 //! | [`integrate`] | the equations of one step |
 //! | [`step`] | a step as a table of contents |
+//! | [`record`] | many scenes, each run once and watched |
 //! | [`observe`], [`reset`] | observations and actions; initial states |
 
 pub mod contact;
@@ -26,6 +27,7 @@ pub mod lanes;
 pub mod magnetic;
 pub mod model;
 pub mod observe;
+pub mod record;
 pub mod reset;
 pub mod scene;
 pub mod state;

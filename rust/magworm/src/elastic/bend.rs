@@ -1,14 +1,28 @@
 //! Bending springs of the discrete elastic rod (Bergou 2008; planar form in Huang 2020, Goldberg 2019).
 //!
-//! With φ the turning angle between the elements e and f at a node,
-//! κ = 2 tan(φ/2) = 2 (t_e × t_f)/(1 + t_e · t_f) and E = ½ B κ². In the plane φ = θ_f − θ_e and
-//! ∂θ/∂e = n/|e|, so ∂κ/∂e = −(1 + κ²/4) n_e/|e| and ∂κ/∂f = (1 + κ²/4) n_f/|f|, n = ẑ × t: the
+//! E = ½ B κ² with φ the turning angle between the elements e and f at a node and κ either φ itself or
+//! 2 tan(φ/2) = 2 (t_e × t_f)/(1 + t_e · t_f). In the plane φ = θ_f − θ_e and ∂θ/∂e = n/|e| with
+//! n = ẑ × t, so ∂κ/∂e = −κ′ n_e/|e| and ∂κ/∂f = κ′ n_f/|f| with κ′ = dκ/dφ, which is 1 or 1 + κ²/4: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
 use super::{Equations, MOST, Places, Scheme, Spring, gather};
-use crate::lanes::Isa;
+use crate::lanes::math::atan2;
+use crate::lanes::{Isa, Real};
 use crate::model::Model;
+use crate::scene::Curvature;
 use crate::state::Block;
+
+/// κ and dκ/dφ of a turning angle given by its cosine and sine.
+#[inline(always)]
+fn curvature<F: Real>(law: Curvature, dot: F, cross: F) -> (F, F) {
+    match law {
+        Curvature::Angle => (atan2(cross, dot), dot.splat(1.0)),
+        Curvature::Tangent => {
+            let strain = (cross * 2.0) / (dot + 1.0);
+            (strain, strain * strain * 0.25 + 1.0)
+        }
+    }
+}
 
 /// Adds all bending springs to the equations of a step.
 #[inline(always)]
@@ -21,6 +35,7 @@ pub fn assemble<const W: usize, I: Isa<W>>(
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
     let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
     let places = Places { node: &block.node, q: &block.q };
+    let law = model.scene.solver.curvature;
     let mut equations = Equations { matrix, right, v };
     let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.bend {
@@ -29,8 +44,7 @@ pub fn assemble<const W: usize, I: Isa<W>>(
         let tf = [isa.load(&tangent[2 * f]), isa.load(&tangent[2 * f + 1])];
         let cross = te[0] * tf[1] - te[1] * tf[0];
         let dot = te[0] * tf[0] + te[1] * tf[1];
-        let strain = (cross * 2.0) / (dot + 1.0);
-        let steepness = strain * strain * 0.25 + 1.0;
+        let (strain, steepness) = curvature(law, dot, cross);
         let over_e = steepness * isa.load(&inverse_length[e]);
         let over_f = steepness * isa.load(&inverse_length[f]);
         // ∂κ/∂e and ∂κ/∂f.

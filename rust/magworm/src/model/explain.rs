@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
 use super::{Model, PairModel};
-use crate::scene::Integrator;
+use crate::scene::{Curvature, Integrator};
 use std::fmt::Write;
 
 impl Model {
@@ -20,7 +20,11 @@ impl Model {
         let (unknowns, half) = (self.coordinates.count, self.band.half_bandwidth());
         line("unknowns", format!("{unknowns}, half-bandwidth {half}"));
         line("stretching", format!("{} elements", self.stretch.len()));
-        line("bending", format!("{} nodes", self.bend.len()));
+        let curvature = match self.scene.solver.curvature {
+            Curvature::Angle => "κ = φ",
+            Curvature::Tangent => "κ = 2 tan(φ/2)",
+        };
+        line("bending", format!("{} nodes, {curvature}", self.bend.len()));
         line("gravity", self.explain_gravity());
         line("ground", self.explain_ground());
         line("drive", self.explain_drive());

@@ -106,7 +106,7 @@ pub struct Stretch {
     pub stencil: Stencil,
 }
 
-/// Bending spring at a node: E = ½ B κ², κ = 2 tan(φ/2).
+/// Bending spring at a node: E = ½ B κ², see [`crate::scene::Curvature`].
 #[derive(Clone, Copy, Debug)]
 pub struct Bend {
     /// The node; its elements are the one before and this.

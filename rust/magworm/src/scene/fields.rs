@@ -194,6 +194,7 @@ static SOLVER: Table = Table {
         optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
         optional("quadrature_order", whole(1, 10)),
         optional("contact_iterations", whole(1, 1000)),
+        optional("curvature", Kind::Choice(&["angle", "tangent"])),
     ],
 };
 

@@ -26,7 +26,9 @@ pub use body::{Body, Clamp, Magnet, Material, Rod, RodMagnet, Worm};
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
 pub use preset::PRESETS;
-pub use solver::{Control, Integrator, MagnetModel, Parameter, Reset, Solver, Start, Variation};
+pub use solver::{
+    Control, Curvature, Integrator, MagnetModel, Parameter, Reset, Solver, Start, Variation,
+};
 pub use surroundings::{Ground, MagneticTerms, UniformField};
 
 use serde::{Deserialize, Serialize};

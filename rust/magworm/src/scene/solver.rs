@@ -16,6 +16,8 @@ pub struct Solver {
     pub quadrature_order: usize,
     /// Most contact iterations per step.
     pub contact_iterations: usize,
+    /// Discrete curvature of the rod.
+    pub curvature: Curvature,
 }
 
 impl Default for Solver {
@@ -26,6 +28,7 @@ impl Default for Solver {
             magnet_model: MagnetModel::Cuboid,
             quadrature_order: 3,
             contact_iterations: 64,
+            curvature: Curvature::Angle,
         }
     }
 }
@@ -38,6 +41,16 @@ pub enum Integrator {
     Implicit,
     /// The paper's: explicit forces, rigid magnets held by Lagrange multipliers.
     Explicit,
+}
+
+/// Curvature of a node, times its length, from its turning angle φ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Curvature {
+    /// κ = φ: an arc of constant curvature is exact.
+    Angle,
+    /// κ = 2 tan(φ/2), the paper's (Bergou 2008): its moment is greater by φ²/3, and infinite for a fold.
+    Tangent,
 }
 
 /// Model of the wrench between two magnets.

@@ -63,7 +63,6 @@ impl Batch {
     /// `count` environments at rest in the scene's start pose; each waits for its first
     /// [`reset`](Self::reset). `threads`: none for one per core.
     pub fn new(model: Arc<Model>, count: usize, lanes: LaneChoice, threads: Option<usize>) -> Self {
-        let cores = || std::thread::available_parallelism().map_or(1, |n| n.get());
         let blocks = match lanes {
             LaneChoice::Wide => Blocks::Wide(new_blocks(&model, count)),
             LaneChoice::Scalar => Blocks::Scalar(new_blocks(&model, count)),
@@ -72,7 +71,7 @@ impl Batch {
         Self {
             factors: vec![1.0; count * Model::PARAMETERS.len()],
             present: present.repeat(count),
-            pool: Pool::new(threads.unwrap_or_else(cores)),
+            pool: Pool::new(threads),
             model,
             count,
             blocks,

@@ -9,6 +9,7 @@ mod view;
 
 pub use batch::{Batch, LaneChoice, StepOutput};
 pub use block::{Block, Counters, Status};
+pub(crate) use pool::Pool;
 pub use rows::Rows;
 pub use snapshot::SnapshotError;
 pub use view::View;

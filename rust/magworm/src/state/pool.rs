@@ -12,9 +12,12 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// A pool of `threads` threads, started when it is first needed; one thread needs none.
-    pub fn new(threads: usize) -> Self {
-        Self { threads: threads.max(1), owner: std::process::id(), pool: None }
+    /// A pool of `threads` threads (none: one per core), started when it is first needed; one thread
+    /// needs none.
+    pub fn new(threads: Option<usize>) -> Self {
+        let cores = || std::thread::available_parallelism().map_or(1, |n| n.get());
+        let threads = threads.unwrap_or_else(cores).max(1);
+        Self { threads, owner: std::process::id(), pool: None }
     }
 
     /// Number of threads.

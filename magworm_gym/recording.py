@@ -1,0 +1,87 @@
+"""Robots over time, for pictures, phase portraits, fits and studies."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym import _magworm
+from magworm_gym._magworm import Batch, Scene
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One robot over time.
+
+    Attributes:
+        time_s: Instants (T,) [s], evenly spaced.
+        nodes: Centre line (T, K, 2) [m]; K is 0 where it was not kept.
+        magnet_poses: Body magnets (T, M, 3): [m], [m], [rad].
+        present: Which body magnets are in place (M,).
+        drive_positions: Drive magnets (T, D, 2) [m].
+        broken: Why the simulation broke down, in words; from then on the robot stands still. None
+            where it did not.
+    """
+
+    time_s: Floats
+    nodes: Floats
+    magnet_poses: Floats
+    present: NDArray[np.bool_]
+    drive_positions: Floats
+    broken: str | None = None
+
+    @property
+    def centre(self) -> Floats:
+        """Places of the robot's centre, the mean of its magnets' places (T, 2) [m]."""
+        return np.asarray(self.magnet_poses[..., :2].mean(axis=1))
+
+    @property
+    def progress_m(self) -> Floats:
+        """Way towards the head since the first instant (T,) [m]."""
+        centre_x = self.centre[:, 0]
+        return np.asarray(centre_x[0] - centre_x)
+
+
+def record_scenes(
+    scenes: Sequence[Scene],
+    duration_s: float | Sequence[float],
+    sample_s: float = 0.01,
+    *,
+    nodes: bool = True,
+    threads: int | None = None,
+) -> list[Recording]:
+    """Runs each scene once from its start pose, all of them side by side.
+
+    The scenes may differ in everything. A drive that follows actions stands still.
+
+    Args:
+        scenes: What to run.
+        duration_s: For how long [s]: for all, or for each its own.
+        sample_s: Time between two instants that are kept [s]; a whole number of solver steps.
+        nodes: Whether the centre line is kept.
+        threads: None for all cores.
+
+    Raises:
+        ValueError: A time that is no whole number of steps.
+    """
+    durations = np.broadcast_to(np.asarray(duration_s, np.float64), len(scenes))
+    runs = _magworm.record_scenes(list(scenes), durations.tolist(), sample_s, nodes=nodes, threads=threads)
+    return [_recording(scene, sample_s, *run) for scene, run in zip(scenes, runs, strict=True)]
+
+
+def _recording(
+    scene: Scene, sample_s: float, poses: Floats, drive: Floats, nodes: Floats, status: int
+) -> Recording:
+    present = np.ones(scene.magnets, np.bool_)
+    present[list(scene.removed)] = False
+    return Recording(
+        time_s=sample_s * np.arange(len(poses), dtype=np.float64),
+        nodes=nodes,
+        magnet_poses=poses,
+        present=present,
+        drive_positions=drive,
+        broken=Batch.status_text(status) if status else None,
+    )
