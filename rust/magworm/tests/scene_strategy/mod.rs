@@ -15,7 +15,7 @@ pub fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
     let drive = prop::option::of(dice(64).prop_map(|mut dice| drive::drive(&mut dice)));
     let ground = prop::option::of(dice(5).prop_map(|mut dice| ground(&mut dice)));
     let field = prop::option::of(dice(2).prop_map(|mut dice| uniform_field(&mut dice)));
-    let time = dice(8).prop_map(|mut dice| (solver(&mut dice), dice));
+    let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
     (body, drive, ground, field, time, dice(9), dice(20), ".{0,12}").prop_map(
         |((body, magnet), drive, ground, field, (solver, mut time), mut rest, mut reset, name)| {
             Scene {
@@ -85,6 +85,7 @@ fn solver(dice: &mut Dice) -> Solver {
         magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Dipole]),
         quadrature_order: dice.whole(1, 10),
         contact_iterations: dice.whole(1, 1000),
+        curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
     }
 }
 

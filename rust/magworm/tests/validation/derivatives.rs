@@ -5,7 +5,7 @@ use magworm::elastic::kinematics;
 use magworm::integrate::assemble;
 use magworm::lanes::Scalar;
 use magworm::model::{Anchor, Model};
-use magworm::scene::Scene;
+use magworm::scene::{Curvature, Scene};
 use nalgebra::{DMatrix, DVector};
 
 /// A strain s, its stiffness k (E = Σ ½ k s²) and whether it is a stretch.
@@ -22,7 +22,7 @@ pub struct Cut<'a> {
 }
 
 impl Cut<'_> {
-    /// Strains of given node positions: Δl with EA/l, and 2 tan(φ/2) with φ from atan2 and two half
+    /// Strains of given node positions: Δl with EA/l, and φ or 2 tan(φ/2) with φ from atan2 and two half
     /// elements in series, 1/(l⁻/2EI⁻ + l⁺/2EI⁺).
     fn strains(&self, node: &[[f64; 2]]) -> Vec<Strain> {
         let mesh = &self.model.mesh;
@@ -46,7 +46,11 @@ impl Cut<'_> {
                 }
             };
             let stiffness = 1.0 / (half(i - 1) + half(i));
-            out.push(Strain { value: 2.0 * (0.5 * turn).tan(), stiffness, axial: false });
+            let value = match self.scene.solver.curvature {
+                Curvature::Angle => turn,
+                Curvature::Tangent => 2.0 * (0.5 * turn).tan(),
+            };
+            out.push(Strain { value, stiffness, axial: false });
         }
         out
     }
@@ -121,6 +125,7 @@ fn bodies() -> Vec<(&'static str, World)> {
     let clamped = [magnets[0], magnets[1], ("body.clamp", "'head'")];
     vec![
         ("rod", World::new(ROD, &[])),
+        ("rod with κ = 2 tan(φ/2)", World::new(ROD, &[("solver.curvature", "'tangent'")])),
         ("rod with magnets", World::new(ROD, &magnets)),
         ("clamped rod with magnets", World::new(ROD, &clamped)),
         ("paper-3", World::new("paper-3", &still)),
