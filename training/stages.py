@@ -1,5 +1,6 @@
 """Stages of an evaluation whose results are kept, so that a stopped one goes on."""
 
+import functools
 import hashlib
 import json
 import time
@@ -9,7 +10,7 @@ from typing import Any
 
 from atomic_files import write_json
 
-from magworm_gym import __version__
+from magworm_gym import _magworm
 
 
 class Stages:
@@ -37,7 +38,7 @@ class Stages:
         Returns:
             The result, as read back from JSON.
         """
-        settings = json.dumps({**decided_by, "version": __version__}, sort_keys=True)
+        settings = json.dumps({**decided_by, "simulator": _simulator()}, sort_keys=True)
         key = hashlib.sha256(settings.encode()).hexdigest()[:12]
         path = self._folder / f"{name}-{key}.json"
         if not path.exists():
@@ -48,3 +49,9 @@ class Stages:
             self._say(f"{name}: kept from an earlier run")
         self._told.add(path)
         return json.loads(path.read_text(encoding="utf-8"))
+
+
+@functools.cache
+def _simulator() -> str:
+    """Digest of the compiled simulator: another build may move robots otherwise."""
+    return hashlib.sha256(Path(_magworm.__file__).read_bytes()).hexdigest()
