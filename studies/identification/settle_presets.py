@@ -1,0 +1,108 @@
+"""Settles the values of the presets: of the candidates that fit, the one that owes least to its discretisation.
+
+An identification leaves many candidates that meet the targets about as well. Stick and slip make some of them
+change their stride when step or mesh are refined. This takes the best candidates of a run of ``magworm
+identify``, measures them again with the steps and meshes of :data:`REFINEMENTS`, and writes the values of
+the one with the least loss of all of them together into the preset files.
+
+    magworm identify studies/identification/paper-3.toml --out runs/identify/paper-3
+    python studies/identification/settle_presets.py paper-3
+"""
+
+import argparse
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification import Problem, read_problem
+from magworm_gym.identification.evaluation import Evaluator
+
+HERE = Path(__file__).parent
+SCENES = HERE.parents[1] / "rust/magworm/scenes"
+
+PRESETS = {
+    "paper-3": ("paper-3", "paper-4", "paper-5", "belt-125"),
+    "paper-3-experiment": ("paper-3-experiment",),
+}
+"""Name of a problem → presets that take its values."""
+
+REFINEMENTS: tuple[dict[str, Any], ...] = (
+    {"solver.step_s": 0.0005},
+    {"solver.step_s": 0.0001},
+    {"solver.step_s": 0.0005, "body.elements_per_bridge": 16, "body.elements_per_foot_end": 4},
+)
+"""Steps and meshes with which a candidate has to fit too."""
+
+DIGITS = 4
+"""Significant digits of a value in a preset."""
+
+
+def main() -> None:
+    """Chooses and writes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("problem", choices=sorted(PRESETS))
+    parser.add_argument("--runs", type=Path, default=Path("runs/identify"), help="folder of the runs")
+    parser.add_argument("--candidates", type=int, default=200, help="how many of the best are measured again")
+    arguments = parser.parse_args()
+    problem = read_problem(HERE / f"{arguments.problem}.toml")
+    with np.load(arguments.runs / arguments.problem / "candidates.npz") as kept:
+        units = kept["units"][np.argsort(kept["losses"], kind="stable")[: arguments.candidates]]
+    losses = refined_losses(problem, units)
+    best = int(losses.sum(axis=1).argmin())
+    print(f"candidate {best + 1} of {len(units)}; losses as identified and refined: {losses[best].round(2)}")
+    values = rounded(problem.space.scene_values(units[best]))
+    for name in PRESETS[arguments.problem]:
+        write_values(SCENES / f"{name}.toml", values)
+        print(f"{name}: {len(values)} values written")
+
+
+def refined_losses(problem: Problem, units: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Losses (C, 1 + R) of candidates (C, P) as they were identified and with each of R refinements."""
+    columns = [Evaluator(problem).losses(units)]
+    for refinement in REFINEMENTS:
+        columns.append(Evaluator(refined(problem, refinement)).losses(units))
+        print(f"{refinement}: least loss {columns[-1].min():.3g}")
+    return np.stack(columns, axis=1)
+
+
+def refined(problem: Problem, values: dict[str, Any]) -> Problem:
+    """The experiments of a problem that do not refine anything themselves, refined."""
+    plain = [each for each in problem.experiments if "solver.step_s" not in each.known]
+    dropped = {each.name for each in problem.experiments} - {each.name for each in plain}
+    experiments = tuple(
+        type(each)(each.name, each.duration_s, each.scene.with_values(values), each.known) for each in plain
+    )
+    aims = tuple(aim for aim in problem.aims if getattr(aim, "experiment", None) not in dropped)
+    return type(problem)(**{**vars(problem), "experiments": experiments, "aims": aims})
+
+
+def rounded(values: dict[str, float]) -> dict[str, float]:
+    """Values with as many digits as a preset shows."""
+    return {path: float(f"{value:.{DIGITS}g}") for path, value in values.items()}
+
+
+def write_values(path: Path, values: dict[str, float]) -> None:
+    """Replaces numbers in a scene file and marks them as identified; all else stays as it is."""
+    lines, table = [], ""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line.startswith("["):
+            table = line.split("]")[0].strip("[ ")
+        field = re.match(r"(\w+) = ", line)
+        value = values.get(f"{table}.{field.group(1)}") if field else None
+        lines.append(line if field is None or value is None else marked(field.group(1), value, line))
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def marked(field: str, value: float, line: str) -> str:
+    """A line of a scene file with another value; what its comment adds after a colon stays."""
+    remark = re.search(r"#[^:]*:(.*)", line)
+    comment = "# identified" + (f":{remark.group(1)}" if remark else "")
+    number = f"{value:g}" if 1e-3 <= abs(value) < 1e5 else f"{value:.{DIGITS}g}"
+    return f"{f'{field} = {number}':<32}{comment}"
+
+
+if __name__ == "__main__":
+    main()
