@@ -1,8 +1,10 @@
 //! The simulator against independent answers: closed forms, ordinary differential equations solved in
 //! the test, finite differences, dense algebra. Every test prints what it measured, so that
-//! `cargo test --test validation -- --nocapture` gives a table of errors.
+//! `cargo test --test validation -- --nocapture` gives a table of errors; what a [`report::Case`] holds is also
+//! in `docs/validation.md`.
 
 mod beam;
+mod report;
 mod world;
 
 mod contact_block;
@@ -12,7 +14,10 @@ mod contact_weight;
 mod crawl;
 mod derivatives;
 mod dynamics;
+mod energy;
 mod explicit;
 mod flight;
 mod odd_bodies;
 mod statics;
+mod statics_buckling;
+mod statics_magnet;

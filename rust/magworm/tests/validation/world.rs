@@ -26,6 +26,9 @@ step_s = 1.0
 episode_s = 10.0
 "#;
 
+/// Both laws of `solver.curvature`, the default first: κ = φ and the paper's κ = 2 tan(φ/2).
+pub const CURVATURES: [(&str, &str); 2] = [("'angle'", "κ = φ"), ("'tangent'", "κ = 2 tan(φ/2)")];
+
 /// The scene of a text or preset with fields replaced by values written in TOML; an empty text removes.
 pub fn scene(base: &str, edits: &[(&str, &str)]) -> Scene {
     let start = if base.contains('\n') { Scene::from_toml(base) } else { Scene::preset(base) };
@@ -81,6 +84,12 @@ impl World {
 
     pub fn node(&self, node: usize) -> [f64; 2] {
         self.block.node_position(&self.model, node, 0)
+    }
+
+    /// Nodes over a length, from the wall of a clamped rod.
+    pub fn shape(&self, length_m: f64) -> Vec<[f64; 2]> {
+        let nodes = (1..=self.last()).map(|n| self.node(n));
+        nodes.map(|[x, y]| [x / length_m, y / length_m]).collect()
     }
 
     pub fn last(&self) -> usize {
