@@ -8,8 +8,8 @@ use magworm::model::Anchor;
 
 const LENGTH_M: f64 = 0.1;
 const THICKNESS_M: f64 = 4e-3;
-/// Amplitude over length: nonlinear terms are of the order of its square, 1e-6.
-const AMPLITUDE: f64 = 1e-3;
+/// Amplitude over length: nonlinear terms are of the order of (βL)² times its square, 6e-7 for the third mode.
+const AMPLITUDE: f64 = 1e-4;
 
 const UNDAMPED: [(&str, &str); 3] =
     [("solver.integrator", "'explicit'"), ("solver.step_s", "2e-5"), ("control.step_s", "2e-5")];
@@ -73,13 +73,13 @@ fn validates_cantilever_frequencies() {
         .equation("ω = (βL)² √(EI/ρAL⁴), cos βL cosh βL = −1: βL = 1.8751, 4.6941, 7.8548")
         .source("S. P. Timoshenko, Vibration Problems in Engineering; any textbook of vibrations")
         .scene(ROD, &UNDAMPED)
-        .note("The rod starts straight with the velocity of a mode, amplitude 1e-3 L. The frequency comes of the zero crossings of the mode's share of the motion. The decay shows that the explicit scheme does not damp. Amplitudes are small, so both laws of curvature give the same.");
+        .note("The rod starts straight with the velocity of a mode, amplitude 1e-4 L. The frequency comes of the zero crossings of the mode's share of the motion. The decay shows that the explicit scheme does not damp. Amplitudes are small, so both laws of curvature give the same.");
     let mut figure =
         Figure::new("Frequencies of a cantilever", "elements", "error of ω", Axes::LogLog)
             .slope(-2.0);
     let mut rows = Vec::new();
     for (mode, (beta, periods)) in
-        [(1.87510407, 1), (4.69409113, 3), (7.85475744, 5)].into_iter().enumerate()
+        [(1.87510407, 1), (4.69409113, 4), (7.85475744, 8)].into_iter().enumerate()
     {
         for (curvature, law) in CURVATURES {
             let errors = [10, 20, 40, 80].map(|elements| {
@@ -87,6 +87,8 @@ fn validates_cantilever_frequencies() {
                 let fit = [("body.elements", text.as_str()), ("solver.curvature", curvature)];
                 let mut world = in_mode(beta, &[&UNDAMPED[..], &fit].concat());
                 let (omega, decay) = vibration(&mut world, beta, periods);
+                // Beside the third mode the others show more, as its shape is that of the mesh less closely.
+                let still = if mode < 2 { 1e-6 } else { 1e-5 };
                 if elements == 40 && curvature == CURVATURES[0].0 {
                     let what = format!("ω of mode {}, 40 elements", mode + 1);
                     case.relative(what, "rad/s", [omega, exact_rad_s(beta)], 5e-3);
@@ -94,7 +96,7 @@ fn validates_cantilever_frequencies() {
                         format!("decay/ω of mode {}", mode + 1),
                         "",
                         decay / omega,
-                        -1e-6..=1e-6,
+                        -still..=still,
                     );
                 }
                 omega / exact_rad_s(beta) - 1.0
@@ -164,7 +166,7 @@ fn validates_kelvin_voigt_decay() {
         .equation("σ = E (ε + τ ε̇): a mode decays as e^{−τω²t/2}")
         .source("S. P. Timoshenko, Vibration Problems in Engineering (viscous damping, ζ = τω/2)")
         .scene(ROD, &[&[("body.clamp", "'head'"), ("body.elements", "40")], &edits[..]].concat())
-        .note("First mode, amplitude 1e-3 L, the logarithm of the peaks over two periods.");
+        .note("First mode, amplitude 1e-4 L, the logarithm of the peaks over two periods.");
     case.relative("decay", "1/s", [decay, 0.001 * omega * omega / 2.0], 1e-3);
     case.finish();
 }
@@ -180,14 +182,17 @@ fn validates_dynamic_cantilever() {
         ("material.damping_time_s", "0.0"),
         ("body.elements", "54"),
     ];
-    let mut world = World::new("cantilever", &edits);
-    world.run(1.0);
     let mut case = Case::new("dynamic_cantilever", "Heavy cantilever let go from the horizontal")
         .equation("ρA ẍ = ∂n/∂s + ρA g, ρI θ̈ = EI θ″ + (x′ × n)·ẑ: an extensible Kirchhoff rod")
         .source("Tip of an independent discretisation of the Kirchhoff rod at t = 1 s: (52.708, −11.759) mm")
         .scene("cantilever", &edits)
         .note("ρAgL³/EI = 12.4, undamped. The motion is nonlinear and long, about four swings: the bound is 1e-2 L = 0.54 mm, what two methods can be asked to agree on.");
-    let tip = world.node(world.last()).map(|x| x * 1e3);
-    case.place("tip after 1 s", "mm", [tip, [52.708, -11.759]], 0.54);
+    for (curvature, law) in CURVATURES {
+        let law_of_bending = ("solver.curvature", curvature);
+        let mut world = World::new("cantilever", &[&edits[..], &[law_of_bending]].concat());
+        world.run(1.0);
+        let tip = world.node(world.last()).map(|x| x * 1e3);
+        case.place(format!("tip after 1 s, {law}"), "mm", [tip, [52.708, -11.759]], 0.54);
+    }
     case.finish();
 }

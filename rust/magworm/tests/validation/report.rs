@@ -306,6 +306,13 @@ pub fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| (pair[0] / pair[1]).abs().log2()).collect()
 }
 
+/// Of several orders the one farthest from what is expected.
+pub fn farthest_from(expected: f64, orders: &[f64]) -> f64 {
+    let distance = |order: &f64| (order - expected).abs();
+    let farthest = orders.iter().max_by(|a, b| distance(a).total_cmp(&distance(b)));
+    *farthest.expect("two meshes or steps")
+}
+
 /// A number as a table shows it.
 pub fn short(value: f64) -> String {
     format!("{value:.1e}")

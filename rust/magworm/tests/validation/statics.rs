@@ -1,7 +1,7 @@
 //! Rods at rest under weight.
 
 use crate::beam::{Loads, elastica, elastica_shape};
-use crate::report::{Axes, Case, Figure, orders, short};
+use crate::report::{Axes, Case, Figure, farthest_from, orders, short};
 use crate::world::{CURVATURES, ROD, World, number};
 
 /// From the wall to the tip, or to the magnet at the tip.
@@ -103,8 +103,7 @@ impl Refined {
 
 /// Of several orders the one farthest from 2.
 pub fn farthest_from_two(errors: &[f64]) -> f64 {
-    let all = orders(errors);
-    all.into_iter().max_by(|a, b| (a - 2.0).abs().total_cmp(&(b - 2.0).abs())).expect("two meshes")
+    farthest_from(2.0, &orders(errors))
 }
 
 fn heavy(elements: usize, alpha: f64, curvature: &str) -> World {
