@@ -79,7 +79,7 @@ fn validates_the_far_field() {
     let mut case = Case::new("the_far_field", "Far apart, cuboids are dipoles")
         .equation("F = ∇(m·B), T = m × B with B = μ0 (3 (m̂·r̂) r̂ − m̂) m/(4π r³); difference ∝ r⁻²")
         .source("K. W. Yung, P. B. Landecker, D. D. Villani, Magn. Electr. Sep. 9 (1998) 39; the quadrupole of a cuboid vanishes, its octupole is r⁻² smaller")
-        .note("Magnets of about the presets' size, along three directions. At the presets' closest distance, 22 mm, a dipole would be wrong by a quarter or more: the presets use cuboids.");
+        .note("Magnets of about the presets' size, along three directions. At the presets' closest distance, 22 mm, dipoles are wrong by 0.4 to 3 times the wrench: the presets use cuboids.");
     let mut figure =
         Figure::new("Dipoles against cuboids", "distance [m]", "error of the wrench", Axes::LogLog)
             .slope(-2.0);

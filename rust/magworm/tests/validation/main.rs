@@ -13,6 +13,7 @@ mod contact_robust;
 mod contact_slide;
 mod contact_weight;
 mod crawl;
+mod crawl_converges;
 mod derivatives;
 mod dynamics;
 mod energy;

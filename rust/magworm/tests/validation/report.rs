@@ -213,17 +213,6 @@ impl Case {
         self.inside(quantity, unit, measured, f64::NEG_INFINITY..=bound);
     }
 
-    /// A value that must not fall short of a bound.
-    pub fn at_least(
-        &mut self,
-        quantity: impl Into<String>,
-        unit: &'static str,
-        measured: f64,
-        bound: f64,
-    ) {
-        self.inside(quantity, unit, measured, bound..=f64::INFINITY);
-    }
-
     /// A value without a band.
     pub fn tell(&mut self, quantity: impl Into<String>, unit: &'static str, measured: f64) {
         self.inside(quantity, unit, measured, f64::NEG_INFINITY..=f64::INFINITY);
