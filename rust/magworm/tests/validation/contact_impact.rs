@@ -45,7 +45,7 @@ fn validates_inelastic_landing() {
         remaining.push(left);
     }
     case.spread("rebound, all blocks", "m/s", &rebounds, 1e-6);
-    case.spread("kinetic energy left, all blocks", "greatest kinetic energy", &remaining, 1e-12);
+    case.spread("kinetic energy left, all blocks", "of its greatest value", &remaining, 1e-12);
     case.finish();
 }
 
@@ -89,7 +89,7 @@ fn validates_impact_takes_energy() {
             }
         }
     }
-    case.spread("rise of the energy", "the energy of the fall", &rises, 0.01);
+    case.spread("rise of the energy", "of the fall's energy", &rises, 0.01);
     case.finish();
 }
 

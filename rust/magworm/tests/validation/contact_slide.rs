@@ -32,7 +32,7 @@ fn validates_sliding_acceleration() {
             errors.push(measured / exact - 1.0);
         }
     }
-    case.spread("acceleration, all blocks", "expected", &errors, 1e-6);
+    case.spread("acceleration, all blocks", "relative", &errors, 1e-6);
     case.finish();
 }
 
@@ -64,7 +64,7 @@ fn validates_stopping_distance() {
         speeds.push(world.fastest(0));
     }
     // 6e-6 m of the last step over 41.6 mm, and what it shakes of a soft block when it stops.
-    case.spread("way, all blocks", "expected", &errors, 1e-3);
+    case.spread("way, all blocks", "relative", &errors, 1e-3);
     case.spread("speed afterwards, all blocks", "m/s", &speeds, 1e-9);
     case.finish();
 }
@@ -102,7 +102,7 @@ fn validates_axial_friction() {
             held.push(ratio);
         }
     }
-    case.spread("energy of those that slide", "expected", &errors, 1e-3);
+    case.spread("energy of those that slide", "relative", &errors, 1e-3);
     case.spread("energy of those that stick", "J/kg", &held, 1e-18);
     figure.exact(
         "closed form",

@@ -30,7 +30,7 @@ fn validates_the_field_at_a_thousand_points() {
         errors[row[0] as usize].push(error);
     }
     for (kind, errors) in KINDS.iter().zip(errors) {
-        case.spread(format!("B, points {kind}"), "expected", &errors, 1e-12);
+        case.spread(format!("B, points {kind}"), "relative", &errors, 1e-12);
     }
     case.finish();
 }

@@ -68,7 +68,7 @@ fn validates_symmetries_of_the_wrench() {
     for ((name, errors), band) in
         names.into_iter().zip(&errors).zip([1e-9, 1e-9, 1e-9, 1e-12, 1e-6])
     {
-        case.spread(name, "|F|", errors, band);
+        case.spread(name, "of |F|", errors, band);
     }
     case.finish();
 }

@@ -16,7 +16,9 @@ pub struct Case {
     title: &'static str,
     equation: String,
     source: String,
-    scene: Vec<String>,
+    /// A preset's name or a scene's text, and its edits in TOML.
+    base: String,
+    edits: Vec<String>,
     note: String,
     rows: Vec<Row>,
     tables: Vec<Table>,
@@ -34,8 +36,8 @@ struct Row {
     /// Median, 90 % quantile and greatest of many errors, and how many they are.
     quantiles: Vec<f64>,
     error: Option<f64>,
-    /// What the error is a part of; empty: it has the row's unit.
-    error_of: &'static str,
+    /// The error's unit, `relative` or `of …`.
+    error_unit: &'static str,
     low: f64,
     high: f64,
     within: bool,
@@ -115,7 +117,8 @@ impl Case {
             title,
             equation: String::new(),
             source: String::new(),
-            scene: Vec::new(),
+            base: String::new(),
+            edits: Vec::new(),
             note: String::new(),
             rows: Vec::new(),
             tables: Vec::new(),
@@ -141,14 +144,16 @@ impl Case {
         self
     }
 
-    /// The scene: a preset, or the rod of `world::ROD`, and the edits of it.
+    /// The scene: a preset or the text of `world::ROD`, and the edits of it; `…` for values that vary.
     pub fn scene(mut self, base: &str, edits: &[(&str, &str)]) -> Self {
-        let base = if base.contains('\n') { "the rod of this page" } else { base };
-        self.scene = vec![format!("# {base}, with")];
-        self.scene.extend(edits.iter().map(|(path, value)| match *value {
-            "" => format!("# without {path}"),
-            value => format!("{path} = {value}"),
-        }));
+        self.base = base.into();
+        self.edits = edits
+            .iter()
+            .map(|(path, value)| match *value {
+                "" => format!("# without {path}"),
+                value => format!("{path} = {value}"),
+            })
+            .collect();
         self
     }
 
@@ -162,7 +167,7 @@ impl Case {
     ) {
         let error = measured / expected - 1.0;
         let both = [vec![measured], vec![expected]];
-        self.push(quantity.into(), unit, both, Some((error, "expected")), 0.0..=band);
+        self.push(quantity.into(), unit, both, Some((error, "relative")), 0.0..=band);
     }
 
     /// A value against an expected one; `band` bounds the difference, in the row's unit.
@@ -175,7 +180,7 @@ impl Case {
     ) {
         let error = measured - expected;
         let both = [vec![measured], vec![expected]];
-        self.push(quantity.into(), unit, both, Some((error, "")), 0.0..=band);
+        self.push(quantity.into(), unit, both, Some((error, unit)), 0.0..=band);
     }
 
     /// A point against an expected one; `band` bounds their distance, in the row's unit. Infinite: told only.
@@ -188,7 +193,7 @@ impl Case {
     ) {
         let error = (measured[0] - expected[0]).hypot(measured[1] - expected[1]);
         let both = [measured.to_vec(), expected.to_vec()];
-        self.push(quantity.into(), unit, both, Some((error, "")), 0.0..=band);
+        self.push(quantity.into(), unit, both, Some((error, unit)), 0.0..=band);
     }
 
     /// A value that must lie in a range, with one infinite end or none.
@@ -218,11 +223,11 @@ impl Case {
         self.inside(quantity, unit, measured, f64::NEG_INFINITY..=f64::INFINITY);
     }
 
-    /// Many errors: `band` bounds the size of the greatest, as a part of `error_of`. Infinite: told only.
+    /// Many errors: `band` bounds the size of the greatest, in `error_unit`. Infinite: told only.
     pub fn spread(
         &mut self,
         quantity: impl Into<String>,
-        error_of: &'static str,
+        error_unit: &'static str,
         errors: &[f64],
         band: f64,
     ) {
@@ -230,7 +235,7 @@ impl Case {
         sizes.sort_by(f64::total_cmp);
         let at = |share: f64| sizes[((sizes.len() - 1) as f64 * share).round() as usize];
         let quantiles = vec![at(0.5), at(0.9), at(1.0), sizes.len() as f64];
-        let error = Some((at(1.0), error_of));
+        let error = Some((at(1.0), error_unit));
         self.push(quantity.into(), "", [vec![], vec![]], error, 0.0..=band);
         if let Some(row) = self.rows.last_mut() {
             row.quantiles = quantiles;
@@ -250,8 +255,8 @@ impl Case {
         // Not a number is outside of every band.
         let within = bounded >= low && bounded <= high;
         println!("{}: {quantity}: {measured:?} {unit}, error {error:?}", self.name);
-        let (error, error_of) = error.unzip();
-        let error_of = error_of.unwrap_or_default();
+        let (error, error_unit) = error.unzip();
+        let error_unit = error_unit.unwrap_or_default();
         let quantiles = Vec::new();
         self.rows.push(Row {
             quantity,
@@ -260,7 +265,7 @@ impl Case {
             expected,
             quantiles,
             error,
-            error_of,
+            error_unit,
             low,
             high,
             within,

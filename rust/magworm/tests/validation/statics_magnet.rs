@@ -181,7 +181,7 @@ fn validates_tip_magnet() {
     }
     case.spread(
         "θ, c = 0.5, 1, 2, 4 at φ = 15°, 45°, 120°, 150°, 170°, κ = φ",
-        "expected",
+        "relative",
         &errors,
         1e-3,
     );

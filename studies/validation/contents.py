@@ -1,0 +1,101 @@
+"""Order of the page: sections, their cases, and what each case is compared with.
+
+A case is named after its Rust test without ``validates_``; one that is missing in a run is a failure.
+"""
+
+from typing import NamedTuple
+
+
+class Section(NamedTuple):
+    """A section of the page."""
+
+    title: str
+    text: str
+    cases: dict[str, str]
+
+
+SECTIONS = (
+    Section(
+        "Rods at rest",
+        "The rod settles under a load: the implicit scheme runs with long steps until nothing moves faster than "
+        "1e-10 m/s. κ = φ is the default of `solver.curvature`, κ = 2 tan(φ/2) the paper's; φ is the angle by "
+        "which the rod turns at a node. Both are discretisations of the same rod and both are of second order; the "
+        "tables *curvature* below show what the choice costs on a given mesh.",
+        {
+            "heavy_cantilever": "elastica, ODE solved in the test",
+            "end_moment": "closed form",
+            "end_load": "elastica, ODE solved in the test; published numbers",
+            "tip_magnet": "closed form",
+            "pitchfork": "closed form",
+            "buckling": "published critical loads",
+        },
+    ),
+    Section(
+        "Vibrations",
+        "",
+        {
+            "cantilever_frequencies": "closed form",
+            "implicit_frequency": "closed form of the scheme",
+            "kelvin_voigt_decay": "closed form",
+            "dynamic_cantilever": "another discretisation",
+            "compass_needle": "closed form",
+        },
+    ),
+    Section(
+        "Conservation",
+        "Rows near 1e-13 are rounding: they are bounded, not compared.",
+        {
+            "energy_over_hundred_periods": "conservation law",
+            "explicit_energy": "conservation law",
+            "free_fall": "closed form",
+            "momentum_in_free_flight": "conservation law",
+            "rigid_rotation_is_undamped": "conservation law",
+            "implicit_rotation_loses_only_its_truncation": "closed form of the scheme",
+            "constraint_drift": "bound of the scheme",
+        },
+    ),
+    Section(
+        "Contact and friction",
+        "Signorini's law and Coulomb friction with a static and a dynamic coefficient; impacts are inelastic. "
+        "Gravity is turned by `ground.incline_deg`.",
+        {
+            "friction_angle": "closed form",
+            "friction_angle_of_feet": "closed form",
+            "creep_over_a_far_drive": "closed form",
+            "sliding_acceleration": "closed form",
+            "stopping_distance": "closed form",
+            "axial_friction": "closed form, published test",
+            "inelastic_landing": "closed form",
+            "impact_takes_energy": "second law",
+            "weight_at_rest": "statics",
+        },
+    ),
+    Section(
+        "Magnets",
+        "Cuboids of unit permeability and uniform, rigid magnetisation.",
+        {
+            "the_field_at_a_thousand_points": "60-digit arithmetic",
+            "every_reference_wrench": "converged table",
+            "the_published_torque_of_two_large_magnets": "converged value",
+            "symmetries_of_the_wrench": "symmetry",
+            "the_far_field": "dipoles",
+        },
+    ),
+    Section(
+        "The robot",
+        "There is no closed form of a crawling robot. Here the simulator is compared with the paper's figures, "
+        "which the presets are identified from, and with itself: two schemes, and finer steps, meshes and "
+        "quadratures. Stick and slip make the stride a rugged function of everything, so it converges less "
+        "smoothly than the lift.",
+        {
+            "lift": "the paper's figure",
+            "pass": "the paper's figures",
+            "integrators_agree": "the other scheme",
+            "stride_converges_in_the_step": "refined step",
+            "stride_in_the_mesh": "refined mesh",
+            "stride_in_the_quadrature": "refined quadrature",
+        },
+    ),
+)
+
+NAMES = tuple(name for section in SECTIONS for name in section.cases)
