@@ -10,7 +10,7 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-STYLE = {
+STYLE: Any = {
     "svg.hashsalt": "magworm",
     "font.size": 9,
     "axes.grid": True,

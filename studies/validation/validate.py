@@ -1,7 +1,7 @@
 """Runs the validation tests of the simulator and writes `docs/validation.md` with its figures.
 
-Fails where a test fails, a figure is outside of its band, or a case is missing. What is computed and which bands
-hold stands in the Rust tests alone; here they are only run and written down.
+Fails where a test fails, a figure is outside of its band, or a case is missing. What is computed and which
+bands hold stands in the Rust tests alone; here they are only run and written down.
 
     python studies/validation/validate.py
 """
@@ -58,15 +58,13 @@ def complaints(cases: dict[str, Case], status: int) -> list[str]:
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument(
-        "--cases", type=Path, default=ROOT / "runs/validation", help="folder for what tests leave"
-    )
-    parser.add_argument(
-        "--page", type=Path, default=ROOT / "docs/validation.md", help="Markdown file to write"
-    )
-    parser.add_argument(
-        "--images", type=Path, default=ROOT / "docs/images/validation", help="folder for the figures"
-    )
+    defaults = {
+        "cases": ("runs/validation", "folder for what the tests leave"),
+        "page": ("docs/validation.md", "Markdown file to write"),
+        "images": ("docs/images/validation", "folder for the figures"),
+    }
+    for name, (place, text) in defaults.items():
+        parser.add_argument(f"--{name}", type=Path, default=ROOT / place, help=text)
     arguments = parser.parse_args()
     status = run_tests(arguments.cases)
     cases = read_cases(arguments.cases)
