@@ -21,7 +21,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test bench wheel lint format docs clean install \
+.PHONY: help demo validate test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -29,6 +29,9 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 
 demo: install-train  ## train a controller, compare it with the belts, print the table last
 	$(VENV_PYTHON) training/evaluate.py --budget $(BUDGET) --out $(OUT)
+
+validate: install-train need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
+	$(VENV_PYTHON) studies/validation/validate.py
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
 

@@ -74,8 +74,9 @@ class Case:
 
     @property
     def tightest(self) -> Row | None:
-        """The row, orders aside, that uses up most of its band."""
-        rows = [row for row in self.rows if row.bounded and not row.is_order]
+        """The row that uses up most of its band; an order only where there is nothing else."""
+        bounded = [row for row in self.rows if row.bounded]
+        rows = [row for row in bounded if not row.is_order] or bounded
         return max(rows, key=lambda row: row.share, default=None)
 
     @property

@@ -29,7 +29,7 @@ MANY_POINTS = 120
 def draw(figure: dict[str, Any], path: Path) -> None:
     """Writes a figure as SVG."""
     with plt.rc_context(STYLE):
-        canvas, axes = plt.subplots(figsize=(5.6, 3.6), layout="constrained")
+        canvas, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
         points = [curve for curve in figure["curves"] if not curve["exact"]]
         for curve in figure["curves"]:
             if curve["exact"]:
@@ -39,7 +39,7 @@ def draw(figure: dict[str, Any], path: Path) -> None:
             axes.plot(curve["x"], curve["y"], label=curve["label"], zorder=3, **look)
         _set_scales(axes, figure, points)
         axes.set(xlabel=figure["x"], ylabel=figure["y"], title=figure["title"])
-        axes.legend(fontsize=8)
+        _place_legend(axes, points)
         canvas.savefig(path, format="svg", metadata={"Date": None, "Creator": None})
         plt.close(canvas)
 
@@ -63,6 +63,15 @@ def _looks(curves: list[dict[str, Any]], scales: str) -> list[dict[str, Any]]:
             look |= {"marker": MARKERS[kind], "linestyle": ""}
         looks.append(look)
     return looks
+
+
+def _place_legend(axes: Any, points: list[dict[str, Any]]) -> None:
+    """Beside the axes where it would hide points."""
+    crowded = len(points) > 4 or any(len(curve["x"]) > MANY_POINTS for curve in points)
+    place = {"loc": "center left", "bbox_to_anchor": (1, 0.5)} if crowded else {}
+    legend = axes.legend(fontsize=8, **place)
+    for line in legend.get_lines():
+        line.set_linewidth(1.2)
 
 
 def _set_scales(axes: Any, figure: dict[str, Any], points: list[dict[str, Any]]) -> None:

@@ -21,13 +21,13 @@ fn difference(a: [f64; 3], b: [f64; 3], distance: f64) -> f64 {
     off.max((a[2] - b[2]).abs() / (force * distance))
 }
 
-/// 600 poses spread evenly, (x, y, angle): 80 mm to both sides, 12 to 62 mm above, all angles.
-fn poses() -> impl Iterator<Item = [f64; 3]> {
+/// 600 poses spread evenly, (x, y, angle) at all angles: x over a range about 0, y from a height on.
+pub fn poses([wide, low, high]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     // Fractional parts of multiples of irrational numbers.
     let part = |k: u32, by: f64| (f64::from(k) * by).fract();
     (1..=600).map(move |k| {
         let [a, b, c] = [2f64, 3.0, 5.0].map(|n| part(k, n.sqrt()));
-        [0.16 * a - 0.08, 0.012 + 0.05 * b, PI * (2.0 * c - 1.0)]
+        [wide * (a - 0.5), low + high * b, PI * (2.0 * c - 1.0)]
     })
 }
 
@@ -44,7 +44,7 @@ fn validates_symmetries_of_the_wrench() {
         size_m: Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m),
         remanence_t: 1.22 * Vector3::y(),
     };
-    for [x, y, angle] in poses() {
+    for [x, y, angle] in poses([0.16, 0.012, 0.05]) {
         let [fx, fy, t] = planar(x, y, angle);
         let far = x.hypot(y);
         errors[0].push(difference(planar(-x, y, -angle), [-fx, fy, -t], far));

@@ -68,15 +68,15 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// What a case of both laws of curvature on all meshes gathers: errors over L, for the page's table and figure.
+/// What a case of both laws of curvature on all meshes gathers, for the page's table and figure.
 pub struct Refined {
     figure: Figure,
     rows: Vec<Vec<String>>,
 }
 
 impl Refined {
-    pub fn new(title: &str) -> Self {
-        let figure = Figure::new(title, "elements", "error / L", Axes::LogLog).slope(-2.0);
+    pub fn new(title: &str, y: &'static str) -> Self {
+        let figure = Figure::new(title, "elements", y, Axes::LogLog).slope(-2.0);
         Self { figure, rows: Vec::new() }
     }
 
@@ -132,7 +132,7 @@ fn validates_heavy_cantilever() {
         .source("F. V. Rohde, Q. Appl. Math. 11 (1953) 337 (the heavy elastica); the equation is solved in the test, Runge–Kutta 4 and shooting")
         .scene(ROD, &[&RELAXED[..], &edits].concat())
         .note("Young's modulus sets α: E = 12 ρ g L³/(h² α). The rod is 0.2 mm thick, so that stretching stays below 4e-6 L. The tip's distance from the elastica's tip counts. At α = 25 the rod turns by √(2α)/n a node at the wall, where κ = 2 tan(φ/2) is stiffer than κ = φ by φ²/3.");
-    let mut refined = Refined::new("Heavy cantilever: error of the tip");
+    let mut refined = Refined::new("Heavy cantilever: error of the tip", "error / L");
     let mut shapes = Figure::new("Heavy cantilever, 40 elements", "x / L", "y / L", Axes::Equal);
     for (alpha, tip) in quoted {
         let loads = Loads { weight: alpha, tip: 0.0, overhang: 0.0 };
@@ -224,7 +224,7 @@ fn validates_end_load() {
         .source("K. E. Bisshopp, D. C. Drucker, Q. Appl. Math. 3 (1945) 272; numbers: K. Mattiasson, Int. J. Numer. Methods Eng. 17 (1981) 145; with o and w solved in the test")
         .scene(ROD, &[&RELAXED[..], &edits].concat())
         .note("The load is a rigid, unmagnetised magnet, one element long, behind the soft length L. Young's modulus sets PL²/EI. The reference without o and w is checked against the published numbers to 1e-5; the simulator is compared with the reference that has both.");
-    let mut refined = Refined::new("Load at the tip: error of the tip");
+    let mut refined = Refined::new("Load at the tip: error of the tip", "error / L");
     for (load, tip) in quoted {
         let ideal = elastica(Loads { weight: 0.0, tip: load, overhang: 0.0 });
         assert!(distance(ideal, tip) < 1e-5, "reference {ideal:?} against {tip:?}");
