@@ -8,7 +8,7 @@ import textwrap
 from pathlib import Path
 
 from cases import Case, Row
-from contents import SECTIONS, Section
+from contents import NAMES, SECTIONS, Section
 
 COMMAND = "cargo test --release -p magworm --test validation"
 
@@ -63,7 +63,7 @@ def _curvatures(cases: dict[str, Case]) -> str:
         "| case | load | error, κ = φ | error, κ = 2 tan(φ/2) | ratio |",
         "|---|---|---|---|---|",
     ]
-    for case in cases.values():
+    for case in (cases[name] for name in NAMES if name in cases):
         for table in case.tables:
             if table["head"][1] != "curvature":
                 continue

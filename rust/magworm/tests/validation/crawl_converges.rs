@@ -38,11 +38,12 @@ fn validates_stride_converges_in_the_step() {
         )
         .source("The simulator at a step of 0.1 ms")
         .scene("paper-3", &[("drive.motion", PASS), ("solver.step_s", "…")])
-        .note(&format!("{MEASURED} The band holds for the preset's step, 2 ms."));
+        .note(&format!("{MEASURED} The band holds for a single pass at the preset's step, 2 ms, as the presets promise; the mean stride, which does not depend on where a slip falls, tells the error of the step better."));
     let fine = all_four(&[("solver.step_s", "1e-4")]);
     let steps = ["4e-3", "2e-3", "1e-3", "5e-4"];
     let found = steps.map(|step| errors(all_four(&[("solver.step_s", step)]), fine));
     case.relative("stride, preset's step", "mm", [pass(&[]).1, fine[2]].map(|m| m * 1e3), 0.01);
+    case.tell("difference of the mean stride, preset's step", "", found[1][3]);
     let rows = steps.iter().zip(found).map(|(step, errors)| row(step, errors)).collect();
     case.table(
         "Difference from Δt = 0.1 ms:",
@@ -56,34 +57,42 @@ fn validates_stride_converges_in_the_step() {
     case.finish();
 }
 
-/// Mesh: told, without a band. The finest is 24 elements a bridge and 6 a foot's end.
+/// A step so short that the mesh is what is left.
+const SHORT_STEP: (&str, &str) = ("solver.step_s", "2e-4");
+
+fn on_mesh((bridge, foot): (&str, &str)) -> [f64; 4] {
+    let mesh = [("body.elements_per_bridge", bridge), ("body.elements_per_foot_end", foot)];
+    all_four(&[mesh[0], mesh[1], SHORT_STEP])
+}
+
+/// Mesh: told, without a band. The finest is 16 elements a bridge and 4 a foot's end.
 #[test]
 fn validates_stride_in_the_mesh() {
+    let varied = [
+        ("drive.motion", PASS),
+        SHORT_STEP,
+        ("body.elements_per_bridge", "…"),
+        ("body.elements_per_foot_end", "…"),
+    ];
     let mut case = Case::new("stride_in_the_mesh", "Robot: mesh")
         .equation("Second order in the elements, as for rods")
-        .source("The simulator with 24 elements a bridge and 6 a foot's end")
-        .scene("paper-3", &[("drive.motion", PASS), ("body.elements_per_bridge", "…"), ("body.elements_per_foot_end", "…")])
-        .note(&format!("{MEASURED} The presets have 4 elements a bridge and were identified on that mesh, so no band is set; the numbers tell what a finer mesh would change."));
-    let fine = all_four(&[("body.elements_per_bridge", "24"), ("body.elements_per_foot_end", "6")]);
-    let meshes = [("2", "1"), ("4", "1"), ("8", "2"), ("12", "3"), ("16", "4")];
-    let found = meshes.map(|(bridge, foot)| {
-        let mesh = [("body.elements_per_bridge", bridge), ("body.elements_per_foot_end", foot)];
-        errors(all_four(&mesh), fine)
-    });
+        .source("The simulator with 16 elements a bridge and 4 a foot's end")
+        .scene("paper-3", &varied)
+        .note(&format!("{MEASURED} The step is 0.2 ms: at the presets' 2 ms a single pass jumps by 4 % from mesh to mesh, as a slip falls into one step or the next. The presets have 4 elements a bridge and 1 a foot's end and are identified on that mesh, so no band is set; the numbers tell what a finer mesh would change."));
+    let fine = on_mesh(("16", "4"));
+    let meshes = [("2", "1"), ("4", "1"), ("8", "2"), ("12", "3")];
+    let found = meshes.map(|mesh| errors(on_mesh(mesh), fine));
     for (k, name) in NAMES.into_iter().enumerate() {
         case.tell(format!("difference of the {name}, preset's mesh"), "", found[1][k]);
     }
     let label = |(bridge, foot): &(&str, &str)| format!("{bridge} / {foot}");
     let rows = meshes.iter().zip(found).map(|(mesh, errors)| row(&label(mesh), errors)).collect();
-    case.table(
-        "Difference from 24 / 6:",
-        &["elements a bridge / a foot's end", "lift", "peak", "stride", "mean stride"],
-        rows,
-    );
+    let head = ["elements a bridge / a foot's end", "lift", "peak", "stride", "mean stride"];
+    case.table("Difference from 16 / 4:", &head, rows);
     let mut figure =
-        Figure::new("Robot: mesh", "elements a bridge", "difference from 24", Axes::LogLog)
+        Figure::new("Robot: mesh", "elements a bridge", "difference from 16", Axes::LogLog)
             .slope(-2.0);
-    add_curves(&mut figure, &[2.0, 4.0, 8.0, 12.0, 16.0], &found);
+    add_curves(&mut figure, &[2.0, 4.0, 8.0, 12.0], &found);
     case.figure(figure);
     case.finish();
 }
