@@ -82,9 +82,19 @@ fn slides_from_deg(mut low: f64, mut high: f64, body: impl Fn(f64) -> World) -> 
 fn validates_friction_angle() {
     let mut case = Case::new("friction_angle", "Block on an incline: friction angle")
         .equation("tan α = μ_s + n D_f/(m g cos α), n: points of contact")
-        .source("Coulomb; D_f is the paper's adhesive part of friction (Soft Robotics, DOI 10.1089/soro.2019.0167)")
+        .source(
+            "Coulomb; D_f is the paper's adhesive part of friction (Soft Robotics, DOI \
+            10.1089/soro.2019.0167)",
+        )
         .scene("incline-block", &[("ground.incline_deg", "…"), ("ground.adhesion_n", "0.0")])
-        .note("μ_s = 0.8. A block lies on the incline; after 2 s its way in one more second tells whether it slides. The angle is found by bisection to 1e-4°. Blocks: 2 to 20 mm thick, 80 kPa and 1 MPa, with two magnets, with one magnet along the whole block, of one element. D_f = 0.2 mN a point where all points touch. The 0.0016° that all are off by is the criterion's: below the transition speed static friction holds, and so near the angle a block needs three seconds to it.");
+        .note(
+            "μ_s = 0.8. A block lies on the incline; after 2 s its way in one more second tells \
+            whether it slides. The angle is found by bisection to 1e-4°. Blocks: 2 to 20 mm \
+            thick, 80 kPa and 1 MPa, with two magnets, with one magnet along the whole block, of \
+            one element. D_f = 0.2 mN a point where all points touch. The 0.0016° that all are \
+            off by is the criterion's: below the transition speed static friction holds, and so \
+            near the angle a block needs three seconds to it.",
+        );
     let (mut errors, mut creeping) = (Vec::new(), Vec::new());
     for (name, body) in blocks() {
         for adhesion in [0.0, 2e-4].into_iter().filter(|d| *d == 0.0 || all_points_touch(name)) {
@@ -132,7 +142,11 @@ fn validates_friction_angle_of_feet() {
         .equation("tan α = μ_s")
         .source("Coulomb")
         .scene("paper-3", &law)
-        .note("As for blocks. A rigid foot touches the ground with toe and heel, which share its weight unequally on an incline. Bodies: one foot, with its magnet along a part of it or all, a tall one, and the robot; lying or landing from 1 µm.");
+        .note(
+            "As for blocks. A rigid foot touches the ground with toe and heel, which share its \
+            weight unequally on an incline. Bodies: one foot, with its magnet along a part of it \
+            or all, a tall one, and the robot; lying or landing from 1 µm.",
+        );
     let exact = 0.8f64.atan().to_degrees();
     let (mut errors, mut creeping) = (Vec::new(), Vec::new());
     for (name, body) in bodies {

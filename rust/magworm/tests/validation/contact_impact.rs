@@ -26,7 +26,10 @@ fn validates_inelastic_landing() {
         .equation("v_n⁺ = 0 on impact; the energy m g h is gone")
         .source("Moreau's inelastic impact law (restitution 0), which the paper's robot has")
         .scene("incline-block", &[&ON_FLAT[..], &[("start.height_m", "0.01")]].concat())
-        .note("Blocks as above, dropped flat from 10 mm, for 0.5 s. Rebound is the fastest upward velocity of any node.");
+        .note(
+            "Blocks as above, dropped flat from 10 mm, for 0.5 s. Rebound is the fastest upward \
+            velocity of any node.",
+        );
     let (mut rebounds, mut remaining) = (Vec::new(), Vec::new());
     for (name, body) in crate::contact_block::blocks() {
         let mut edits = ON_FLAT.to_vec();
@@ -56,8 +59,19 @@ fn validates_impact_takes_energy() {
     let mut case = Case::new("impact_takes_energy", "Impact and friction only take energy")
         .equation("d(T + V)/dt ≤ 0")
         .source("Second law; inelastic impact and Coulomb friction do no positive work")
-        .scene("paper-3", &[&ON_FLAT[..], &[("start.height_m", "0.01"), ("start.angle_deg", "30.0"), ("drive", "")]].concat())
-        .note("Block and robot are dropped from 10 mm at 5°, 30°, 80° and −40° on ground with μ_s = 0.1, 0.8, 3 and μ_d = 0.1. Counted is the largest rise over the lowest value before.");
+        .scene(
+            "paper-3",
+            &[
+                &ON_FLAT[..],
+                &[("start.height_m", "0.01"), ("start.angle_deg", "30.0"), ("drive", "")],
+            ]
+            .concat(),
+        )
+        .note(
+            "Block and robot are dropped from 10 mm at 5°, 30°, 80° and −40° on ground with μ_s \
+            = 0.1, 0.8, 3 and μ_d = 0.1. Counted is the largest rise over the lowest value \
+            before.",
+        );
     let mut rises = Vec::new();
     for base in ["incline-block", "paper-3"] {
         for angle in ["5.0", "30.0", "80.0", "-40.0"] {

@@ -11,7 +11,10 @@ fn validates_sliding_acceleration() {
         .equation("a = g (sin α − μ_d cos α) − n D_f/m")
         .source("Coulomb")
         .scene("incline-block", &[("ground.incline_deg", "60.0"), ("ground.adhesion_n", "2e-4")])
-        .note("μ_d = 0.6. Mean acceleration between 0.8 and 1 s; n counts the points that touch. Blocks as above, at 39° and 60° without adhesion and at 60° with it.");
+        .note(
+            "μ_d = 0.6. Mean acceleration between 0.8 and 1 s; n counts the points that touch. \
+            Blocks as above, at 39° and 60° without adhesion and at 60° with it.",
+        );
     let mut errors = Vec::new();
     for (name, body) in blocks() {
         for (angle, adhesion) in [(39.0, 0.0), (60.0, 0.0), (60.0, 2e-4)] {
@@ -79,10 +82,22 @@ fn validates_axial_friction() {
         ("control.step_s", "1e-4"),
     ];
     let mut case = Case::new("axial_friction", "Axial friction of a straight rod")
-        .equation("E(T) = T²/(2m) (|F| − μ_d N)² for |F| > μ_s N, else 0; F = m g sin α, N = m g cos α")
-        .source("M. Gazzola, L. H. Dudte, A. G. McCormick, L. Mahadevan, R. Soc. Open Sci. 5 (2018) 171628, validation of axial friction; PyElastica's AxialFrictionCases, where the force is applied on level ground")
+        .equation(
+            "E(T) = T²/(2m) (|F| − μ_d N)² for |F| > μ_s N, else 0; F = m g sin α, N = m g \
+            cos α",
+        )
+        .source(
+            "M. Gazzola, L. H. Dudte, A. G. McCormick, L. Mahadevan, R. Soc. Open Sci. 5 \
+            (2018) 171628, validation of axial friction; PyElastica's AxialFrictionCases, where \
+            the force is applied on level ground",
+        )
         .scene("incline-block", &edits)
-        .note("T = 1 s, from rest. Static friction holds until a point has the transition speed, here 1e-6 m/s; the speed at the start of a step decides, so the first step is one of static friction: ½Δt (μ_s − μ_d) cos α/(sin α − μ_d cos α) of E at Δt = 0.1 ms, 1e-4 at 40°.");
+        .note(
+            "T = 1 s, from rest. Static friction holds until a point has the transition speed, \
+            here 1e-6 m/s; the speed at the start of a step decides, so the first step is one of \
+            static friction: ½Δt (μ_s − μ_d) cos α/(sin α − μ_d cos α) of E at Δt = 0.1 ms, 1e-4 \
+            at 40°.",
+        );
     let mut figure =
         Figure::new("Axial friction, T = 1 s", "|F| / N = tan α", "E(T) / m [J/kg]", Axes::Linear);
     let (mut found, mut errors, mut held) = (Vec::new(), Vec::new(), Vec::new());

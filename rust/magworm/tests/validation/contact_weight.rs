@@ -38,7 +38,10 @@ fn validates_creep_over_a_far_drive() {
         .equation("v = 0 for tan α < μ_s")
         .source("Coulomb")
         .scene("paper-3", &edits)
-        .note("tan 20° = 0.36. The drive is 0.3 m away, so that its small force acts too. The way between 4 and 5 s counts.");
+        .note(
+            "tan 20° = 0.36. The drive is 0.3 m away, so that its small force acts too. The way \
+            between 4 and 5 s counts.",
+        );
     for preset in ["paper-3", "paper-5"] {
         let mut world = World::new(preset, &edits);
         world.run(4.0);

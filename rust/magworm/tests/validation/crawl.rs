@@ -61,9 +61,16 @@ fn validates_lift() {
     let (height, mirror) = lift(&[]);
     let mut case = Case::new("lift", "Lift over the rising drive")
         .equation("All terms of the model together; lift about L/7")
-        .source("MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167, first experiment; band of the project's acceptance")
+        .source(
+            "MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167, first experiment; band of \
+            the project's acceptance",
+        )
         .scene("paper-3", &[("drive.motion", LIFT)])
-        .note("The drive rises from −52 to −22 mm in 0.5 s under the middle magnet and waits 0.3 s. The mirror error is the distance of the tail magnet from the mirrored head magnet, as a part of the lift. The presets are identified from this experiment and the next.");
+        .note(
+            "The drive rises from −52 to −22 mm in 0.5 s under the middle magnet and waits 0.3 \
+            s. The mirror error is the distance of the tail magnet from the mirrored head magnet, \
+            as a part of the lift. The presets are identified from this experiment and the next.",
+        );
     case.inside("lift of the middle magnet", "mm", height * 1e3, 7.0..=8.5);
     case.at_most("mirror error", "", mirror, 0.01);
     case.finish();
@@ -90,7 +97,10 @@ fn validates_pass() {
 fn validates_integrators_agree() {
     let (lifts, passes) = ([lift(&[]).0, lift(&EXPLICIT).0], [pass(&[]), pass(&EXPLICIT)]);
     let mut case = Case::new("integrators_agree", "Explicit against implicit scheme")
-        .equation("The same equations of motion; explicit: magnets tied by multipliers, Δt = 1 µs; implicit: magnets eliminated, Δt = 2 ms")
+        .equation(
+            "The same equations of motion; explicit: magnets tied by multipliers, Δt = 1 \
+            µs; implicit: magnets eliminated, Δt = 2 ms",
+        )
         .source("The two schemes of this simulator; the explicit one is the paper's")
         .scene("paper-3", &EXPLICIT)
         .note("Lift and pass as above; what is expected is the explicit scheme's.");

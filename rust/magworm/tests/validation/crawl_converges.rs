@@ -11,7 +11,9 @@ fn all_four(edits: &[(&str, &str)]) -> [f64; 4] {
 
 const NAMES: [&str; 4] = ["lift", "peak", "stride", "mean stride"];
 /// What a note says of them.
-const MEASURED: &str = "Lift of the first experiment, peak and stride of a pass. A pass may end with one slip more or less, so its stride jumps; the mean stride is that of nine passes whose drives are up to 0.4 mm higher or lower.";
+const MEASURED: &str = "Lift of the first experiment, peak and stride of a pass. A pass may end \
+    with one slip more or less, so its stride jumps; the mean stride is that of nine passes whose \
+    drives are up to 0.4 mm higher or lower.";
 
 fn errors(values: [f64; 4], exact: [f64; 4]) -> [f64; 4] {
     std::array::from_fn(|k| values[k] / exact[k] - 1.0)
@@ -38,7 +40,11 @@ fn validates_stride_converges_in_the_step() {
         )
         .source("The simulator at a step of 0.1 ms")
         .scene("paper-3", &[("drive.motion", PASS), ("solver.step_s", "…")])
-        .note(&format!("{MEASURED} The band holds for a single pass at the preset's step, 2 ms, as the presets promise; the mean stride, which does not depend on where a slip falls, tells the error of the step better."));
+        .note(&format!(
+            "{MEASURED} The band holds for a single pass at the preset's step, 2 ms, \
+            as the presets promise; the mean stride, which does not depend on where a slip falls, \
+            tells the error of the step better."
+        ));
     let fine = all_four(&[("solver.step_s", "1e-4")]);
     let steps = ["4e-3", "2e-3", "1e-3", "5e-4"];
     let found = steps.map(|step| errors(all_four(&[("solver.step_s", step)]), fine));
@@ -78,7 +84,12 @@ fn validates_stride_in_the_mesh() {
         .equation("Second order in the elements, as for rods")
         .source("The simulator with 16 elements a bridge and 4 a foot's end")
         .scene("paper-3", &varied)
-        .note(&format!("{MEASURED} The step is 0.2 ms: at the presets' 2 ms a single pass jumps by 4 % from mesh to mesh, as a slip falls into one step or the next. The presets have 4 elements a bridge and 1 a foot's end and are identified on that mesh, so no band is set; the numbers tell what a finer mesh would change."));
+        .note(&format!(
+            "{MEASURED} The step is 0.2 ms: at the presets' 2 ms a single pass jumps \
+            by 4 % from mesh to mesh, as a slip falls into one step or the next. The presets have \
+            4 elements a bridge and 1 a foot's end and are identified on that mesh, so no band is \
+            set; the numbers tell what a finer mesh would change."
+        ));
     let fine = on_mesh(("16", "4"));
     let meshes = [("2", "1"), ("4", "1"), ("8", "2"), ("12", "3")];
     let found = meshes.map(|mesh| errors(on_mesh(mesh), fine));

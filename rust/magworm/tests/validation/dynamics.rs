@@ -73,7 +73,12 @@ fn validates_cantilever_frequencies() {
         .equation("ω = (βL)² √(EI/ρAL⁴), cos βL cosh βL = −1: βL = 1.8751, 4.6941, 7.8548")
         .source("S. P. Timoshenko, Vibration Problems in Engineering; any textbook of vibrations")
         .scene(ROD, &[&[("body.clamp", "'head'"), ("body.elements", "40")], &UNDAMPED[..]].concat())
-        .note("The rod starts straight with the velocity of a mode, amplitude 1e-4 L. The frequency comes of the zero crossings of the mode's share of the motion. The decay shows that the explicit scheme does not damp. Amplitudes are small, so both laws of curvature give the same.");
+        .note(
+            "The rod starts straight with the velocity of a mode, amplitude 1e-4 L. The \
+            frequency comes of the zero crossings of the mode's share of the motion. The decay \
+            shows that the explicit scheme does not damp. Amplitudes are small, so both laws of \
+            curvature give the same.",
+        );
     let mut refined = Refined::new("Frequencies of a cantilever", "error of ω");
     // Beside the third mode the others show more, as its shape is that of the mesh less closely.
     let modes = [(1.87510407, 1, 1e-6), (4.69409113, 4, 1e-6), (7.85475744, 8, 1e-5)];
@@ -116,9 +121,15 @@ fn validates_implicit_frequency() {
     let beta = 1.87510407;
     let mut case = Case::new("implicit_frequency", "What the implicit scheme does to a vibration")
         .equation("ω_Δt = atan(ωΔt)/Δt, decay ln(1 + ω²Δt²)/(2Δt) with ω the exact frequency")
-        .source("Backward Euler turns e^{iωt} into (1 − iωΔt)^{−n}, e.g. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II")
+        .source(
+            "Backward Euler turns e^{iωt} into (1 − iωΔt)^{−n}, e.g. E. Hairer, G. Wanner, \
+            Solving Ordinary Differential Equations II",
+        )
         .scene(ROD, &[("body.clamp", "'head'"), ("body.elements", "40"), ("solver.step_s", "2e-3")])
-        .note("The scheme damps: at the presets' step of 2 ms a vibration of 4 rad/s loses 1.6 % of its amplitude a second, one of 40 rad/s a factor of 5.");
+        .note(
+            "The scheme damps: at the presets' step of 2 ms a vibration of 4 rad/s loses 1.6 % \
+            of its amplitude a second, one of 40 rad/s a factor of 5.",
+        );
     for step in [2e-3, 5e-4] {
         let text = number(step);
         let mut world = in_mode(beta, &[("solver.step_s", &text), ("control.step_s", &text)]);
@@ -167,9 +178,15 @@ fn validates_dynamic_cantilever() {
     ];
     let mut case = Case::new("dynamic_cantilever", "Heavy cantilever let go from the horizontal")
         .equation("ρA ẍ = ∂n/∂s + ρA g, ρI θ̈ = EI θ″ + (x′ × n)·ẑ: an extensible Kirchhoff rod")
-        .source("Tip of an independent discretisation of the Kirchhoff rod at t = 1 s: (52.708, −11.759) mm")
+        .source(
+            "Tip of an independent discretisation of the Kirchhoff rod at t = 1 s: (52.708, \
+            −11.759) mm",
+        )
         .scene("cantilever", &edits)
-        .note("ρAgL³/EI = 12.4, undamped. The motion is nonlinear and long, about four swings: the bound is 1e-2 L = 0.54 mm, what two methods can be asked to agree on.");
+        .note(
+            "ρAgL³/EI = 12.4, undamped. The motion is nonlinear and long, about four swings: \
+            the bound is 1e-2 L = 0.54 mm, what two methods can be asked to agree on.",
+        );
     for (curvature, law) in CURVATURES {
         let law_of_bending = ("solver.curvature", curvature);
         let mut world = World::new("cantilever", &[&edits[..], &[law_of_bending]].concat());

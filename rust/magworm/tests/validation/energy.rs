@@ -51,9 +51,17 @@ fn mean(energies: &[f64]) -> f64 {
 fn validates_energy_over_hundred_periods() {
     let mut case = Case::new("energy_over_hundred_periods", "Energy over 100 periods")
         .equation("Σ ½ m v² + Σ ½ (EA/l) Δl² + Σ ½ (EI/l) κ² = const.")
-        .source("Symplectic Euler conserves a nearby energy: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, ch. IX")
+        .source(
+            "Symplectic Euler conserves a nearby energy: E. Hairer, C. Lubich, G. Wanner, \
+            Geometric Numerical Integration, ch. IX",
+        )
         .scene(ROD, &[&SWINGING[..], &[("solver.step_s", "1e-4")]].concat())
-        .note("The undamped rod starts straight with the velocity of its first mode, such that the tip swings by 0.2 L; without gravity. The elastic energy is computed in the test from the places of the nodes by its own formula. The drift compares means over the first and the last ten periods; `explicit_energy` repeats it under gravity.");
+        .note(
+            "The undamped rod starts straight with the velocity of its first mode, such that \
+            the tip swings by 0.2 L; without gravity. The elastic energy is computed in the test \
+            from the places of the nodes by its own formula. The drift compares means over the \
+            first and the last ten periods; `explicit_energy` repeats it under gravity.",
+        );
     let mut figure = Figure::new(
         "Energy over 100 periods, Δt = 0.1 ms",
         "periods",

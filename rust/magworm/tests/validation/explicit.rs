@@ -61,7 +61,10 @@ fn validates_constraint_drift() {
         .equation("distance of a magnet's end from its node ≤ ½ω²rΔt², r half the magnet")
         .source("A step along the velocity leaves ½ω²rΔt² and takes back what the last one left")
         .scene(ROD, &edits)
-        .note("The explicit scheme ties the nodes to the magnets by multipliers on the velocities. A rod with two magnets, let go from the horizontal, over 1e5 steps.");
+        .note(
+            "The explicit scheme ties the nodes to the magnets by multipliers on the \
+            velocities. A rod with two magnets, let go from the horizontal, over 1e5 steps.",
+        );
     case.at_most("greatest distance", "m", worst, 1e-9);
     // 1e-15 m of rounding; the fastest ω may fall between two looks.
     case.at_most("the same over ½ω²rΔt²", "", (worst - 1e-15) / bound, 1.5);
@@ -77,7 +80,10 @@ fn validates_explicit_energy() {
         .equation("Σ ½ m v² + Σ m g y + elastic energy = const.")
         .source("As above")
         .scene(ROD, &[&EXPLICIT[..], &falling].concat())
-        .note("An undamped rod is let go from the horizontal. Means over 0.25 s, 0.75 s apart, are compared; the drift is a part of the energy that is exchanged.");
+        .note(
+            "An undamped rod is let go from the horizontal. Means over 0.25 s, 0.75 s apart, \
+            are compared; the drift is a part of the energy that is exchanged.",
+        );
     for magnets in [false, true] {
         let mut edits = EXPLICIT.to_vec();
         edits.extend(falling);

@@ -87,7 +87,14 @@ fn validates_momentum_in_free_flight() {
         .equation("Σ m v = const., Σ m x × v + Σ I ω = const.")
         .source("Newton; no force from outside")
         .scene(ROD, &[&MAGNETS[..], &[("material.damping_time_s", "2e-3")]].concat())
-        .note("A rod with two magnets, its nodes displaced by up to a tenth of an element, flies at 0.36 m/s and turns at 5 rad/s for 5000 steps. The angular momentum is about the origin. Linear momentum is kept to rounding by both schemes, angular momentum by the explicit one. The implicit scheme's forces are those of the end of a step, linearised, at the places of its start, so their moments do not cancel: it loses spin in proportion to Δt.");
+        .note(
+            "A rod with two magnets, its nodes displaced by up to a tenth of an element, flies \
+            at 0.36 m/s and turns at 5 rad/s for 5000 steps. The angular momentum is about the \
+            origin. Linear momentum is kept to rounding by both schemes, angular momentum by the \
+            explicit one. The implicit scheme's forces are those of the end of a step, \
+            linearised, at the places of its start, so their moments do not cancel: it loses spin \
+            in proportion to Δt.",
+        );
     for (integrator, step) in [("'implicit'", "5e-4"), ("'explicit'", "1e-5")] {
         for damping in ["0.0", "2e-3"] {
             let [linear, angular] = changes(integrator, step, damping, 5000);
@@ -132,11 +139,17 @@ fn validates_rigid_rotation_is_undamped() {
     let (before, angular) = (world.kinetic(), world.momenta().1);
     world.run(1.0);
     let (energy, momentum) = (world.kinetic() / before - 1.0, world.momenta().1 / angular - 1.0);
-    let mut case = Case::new("rigid_rotation_is_undamped", "Kelvin–Voigt damping leaves rotation alone")
-        .equation("dE/dt = −τ Σ k ṡ² = 0 where the strains s do not change")
-        .source("σ = E (ε + τ ε̇) is objective")
-        .scene(ROD, &with("'explicit'", "1e-5", &more))
-        .note("A rod with two magnets turns at 4 rad/s. After 0.5 s, when the stretching that the centrifugal force brings has settled, its energy is compared over 1 s, 0.6 turns.");
+    let mut case = Case::new(
+        "rigid_rotation_is_undamped",
+        "Kelvin–Voigt damping leaves rotation alone",
+    )
+    .equation("dE/dt = −τ Σ k ṡ² = 0 where the strains s do not change")
+    .source("σ = E (ε + τ ε̇) is objective")
+    .scene(ROD, &with("'explicit'", "1e-5", &more))
+    .note(
+        "A rod with two magnets turns at 4 rad/s. After 0.5 s, when the stretching that the \
+            centrifugal force brings has settled, its energy is compared over 1 s, 0.6 turns.",
+    );
     // What is left of the stretching oscillation after 0.5 s.
     case.inside("change of the kinetic energy", "", energy, -1e-5..=1e-5);
     case.inside("change of the angular momentum", "", momentum, -1e-9..=1e-9);
@@ -149,11 +162,19 @@ fn validates_rigid_rotation_is_undamped() {
 #[test]
 fn validates_implicit_rotation_loses_only_its_truncation() {
     let (tau, length, c2) = (2e-3, 0.1, 100.0);
-    let mut case = Case::new("implicit_rotation_loses_only_its_truncation", "Spin under the implicit scheme")
-        .equation("−L̇/L = ω²Δt + 6 (E/ρ) (Δt + τ) Δt² ω²/L²")
-        .source("Leading terms of the scheme's truncation error for a rotating, extensible rod, derived in the test")
-        .scene(ROD, &[("material.damping_time_s", "2e-3"), ("solver.step_s", "2e-3")])
-        .note("The first term is backward Euler's. The second comes of the linearised strain: to keep its length in a step the rod's ends move inwards by ½ω²Δt, which the scheme takes for a strain rate.");
+    let mut case =
+        Case::new("implicit_rotation_loses_only_its_truncation", "Spin under the implicit scheme")
+            .equation("−L̇/L = ω²Δt + 6 (E/ρ) (Δt + τ) Δt² ω²/L²")
+            .source(
+                "Leading terms of the scheme's truncation error for a rotating, extensible rod, \
+            derived in the test",
+            )
+            .scene(ROD, &[("material.damping_time_s", "2e-3"), ("solver.step_s", "2e-3")])
+            .note(
+                "The first term is backward Euler's. The second comes of the linearised strain: to \
+            keep its length in a step the rod's ends move inwards by ½ω²Δt, which the scheme \
+            takes for a strain rate.",
+            );
     for step in [2e-3, 5e-4] {
         let text = number(step);
         let edits = with(

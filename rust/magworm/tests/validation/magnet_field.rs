@@ -18,9 +18,18 @@ const KINDS: [&str; 7] = [
 #[test]
 fn validates_the_field_at_a_thousand_points() {
     let mut case = Case::new("the_field_at_a_thousand_points", "Field of a cuboid")
-        .equation("B = −μ0 ∇φ (+ J inside), φ = ∬ J·n/(4π μ0 r) dS over the faces: sums of logarithms and arctangents over the corners")
-        .source("Closed form: E. P. Furlani, Permanent Magnet and Electromechanical Devices, ch. 4; reference in 60-digit arithmetic, `rust/magworm/tests/data/cuboid_field.csv`")
-        .note("Sizes, magnetisations and points are drawn from a fixed seed, also where the closed form is numerically delicate.");
+        .equation(
+            "B = −μ0 ∇φ (+ J inside), φ = ∬ J·n/(4π μ0 r) dS over the faces: sums of \
+            logarithms and arctangents over the corners",
+        )
+        .source(
+            "Closed form: E. P. Furlani, Permanent Magnet and Electromechanical Devices, ch. \
+            4; reference in 60-digit arithmetic, `rust/magworm/tests/data/cuboid_field.csv`",
+        )
+        .note(
+            "Sizes, magnetisations and points are drawn from a fixed seed, also where the \
+            closed form is numerically delicate.",
+        );
     let mut errors: [Vec<f64>; 7] = Default::default();
     for line in REFERENCE.lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();

@@ -36,9 +36,15 @@ pub fn poses([wide, low, high]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
 #[test]
 fn validates_symmetries_of_the_wrench() {
     let mut case = Case::new("symmetries_of_the_wrench", "Symmetries of the wrench")
-        .equation("mirror x: (−F_x, F_y, −T); mirror y: (F_x, −F_y, −T); half a turn or opposite polarity: −(F_x, F_y, T); out of the plane: F_z = T_x = T_y = 0")
+        .equation(
+            "mirror x: (−F_x, F_y, −T); mirror y: (F_x, −F_y, −T); half a turn or opposite \
+            polarity: −(F_x, F_y, T); out of the plane: F_z = T_x = T_y = 0",
+        )
         .source("Mirror images of magnetic charges")
-        .note("600 poses: 80 mm to both sides, 12 to 62 mm above the drive, all angles. Errors are parts of |F|, torques of |F| times the distance.");
+        .note(
+            "600 poses: 80 mm to both sides, 12 to 62 mm above the drive, all angles. Errors \
+            are parts of |F|, torques of |F| times the distance.",
+        );
     let mut errors: [Vec<f64>; 5] = Default::default();
     let spatial = |cuboid: Cuboid| Magnet {
         size_m: Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m),
@@ -77,9 +83,19 @@ fn validates_symmetries_of_the_wrench() {
 #[test]
 fn validates_the_far_field() {
     let mut case = Case::new("the_far_field", "Far apart, cuboids are dipoles")
-        .equation("F = ∇(m·B), T = m × B with B = μ0 (3 (m̂·r̂) r̂ − m̂) m/(4π r³); difference ∝ r⁻²")
-        .source("K. W. Yung, P. B. Landecker, D. D. Villani, Magn. Electr. Sep. 9 (1998) 39; the quadrupole of a cuboid vanishes, its octupole is r⁻² smaller")
-        .note("Magnets of about the presets' size, along three directions. At the presets' closest distance, 22 mm, dipoles are wrong by 0.4 to 3 times the wrench: the presets use cuboids.");
+        .equation(
+            "F = ∇(m·B), T = m × B with B = μ0 (3 (m̂·r̂) r̂ − m̂) m/(4π r³); difference ∝ \
+            r⁻²",
+        )
+        .source(
+            "K. W. Yung, P. B. Landecker, D. D. Villani, Magn. Electr. Sep. 9 (1998) 39; the \
+            quadrupole of a cuboid vanishes, its octupole is r⁻² smaller",
+        )
+        .note(
+            "Magnets of about the presets' size, along three directions. At the presets' \
+            closest distance, 22 mm, dipoles are wrong by 0.4 to 3 times the wrench: the presets \
+            use cuboids.",
+        );
     let mut figure =
         Figure::new("Dipoles against cuboids", "distance [m]", "error of the wrench", Axes::LogLog)
             .slope(-2.0);

@@ -8,6 +8,9 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 const REFERENCE: &str = include_str!("../data/magnet_reference.csv");
 
+/// Wrench of a reference pose at a quadrature order.
+type Kernel = fn(&[f64], usize) -> Wrench;
+
 /// Poses and wrenches of the reference; columns are named in the file's first line.
 fn rows() -> Vec<Vec<f64>> {
     let parse = |line: &str| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect();
@@ -78,9 +81,25 @@ fn greatest(errors: &[f64]) -> f64 {
 #[test]
 fn validates_every_reference_wrench() {
     let mut case = Case::new("every_reference_wrench", "Wrench between two cuboid magnets")
-        .equation("F = ∬ σ B dS, T = ∬ σ r × B dS over the body magnet's faces, σ = J·n/μ0, B of the drive in closed form")
-        .source("Charge model (unit permeability, rigid magnetisation), converged values, `rust/magworm/tests/data/magnet_reference.csv`")
-        .note("21 poses, 7 to 50 mm apart, of drives of 20 to 50 mm and bodies of 10 to 14 mm; `planar` is the kernel of the simulator on those of them that lie in its plane, `spatial` that of the Python function `magworm_gym.magnet.wrench`. The presets use order 2. Rows are quantiles over the poses. The spatial torque's error is a part of |T|, the planar one's of |T| + |F| l/2 with l the body's length, as T passes through zero: of |T| alone it is up to 20 % at order 2, in a pose where T is 0.4 % of |F| times the distance. The last rows are of the magnets of `paper-3`, order 2 against 8, at 600 poses 22 to 62 mm above the drive's centre, 60 mm to both sides, at all angles.");
+        .equation(
+            "F = ∬ σ B dS, T = ∬ σ r × B dS over the body magnet's faces, σ = J·n/μ0, B of \
+            the drive in closed form",
+        )
+        .source(
+            "Charge model (unit permeability, rigid magnetisation), converged values, \
+            `rust/magworm/tests/data/magnet_reference.csv`",
+        )
+        .note(
+            "21 poses, 7 to 50 mm apart, of drives of 20 to 50 mm and bodies of 10 to 14 mm; \
+            `planar` is the kernel of the simulator on those of them that lie in its plane, \
+            `spatial` that of the Python function `magworm_gym.magnet.wrench`. The presets use \
+            order 2. Rows are quantiles over the poses. The spatial torque's error is a part of \
+            |T|, the planar one's of |T| + |F| l/2 with l the body's length, as T passes through \
+            zero: of |T| alone it is up to 20 % at order 2, in a pose where T is 0.4 % of |F| \
+            times the distance. The last rows are of the magnets of `paper-3`, order 2 against 8, \
+            at 600 poses 22 to 62 mm above the drive's centre, 60 mm to both sides, at all \
+            angles.",
+        );
     let all = rows();
     let flat: Vec<_> = all.iter().filter(|row| is_planar(row)).cloned().collect();
     assert!((all.len(), flat.len()) == (21, 12), "{} {}", all.len(), flat.len());
@@ -90,7 +109,7 @@ fn validates_every_reference_wrench() {
         "error",
         Axes::LogLog,
     );
-    let kernels: [(&str, &[Vec<f64>], fn(&[f64], usize) -> Wrench, usize); 2] =
+    let kernels: [(&str, &[Vec<f64>], Kernel, usize); 2] =
         [("spatial", &all, spatial, 5), ("planar", &flat, planar, 6)];
     let mut table = Vec::new();
     for (name, poses, kernel, checked) in kernels {
@@ -159,10 +178,14 @@ fn preset_errors() -> [Vec<f64>; 2] {
 
 #[test]
 fn validates_the_published_torque_of_two_large_magnets() {
-    let mut case = Case::new("the_published_torque_of_two_large_magnets", "Torque between two large magnets")
-        .equation("T = ∬ σ r × B dS")
-        .source("Converged value of the charge model, T_y = 0.422829 N·m")
-        .note("Two magnets of 40 × 40 × 20 mm, 1.3 T, offset (20, 0, 30) mm: closed forms of the torque disagree in the literature, here it is integrated from the field.");
+    let mut case =
+        Case::new("the_published_torque_of_two_large_magnets", "Torque between two large magnets")
+            .equation("T = ∬ σ r × B dS")
+            .source("Converged value of the charge model, T_y = 0.422829 N·m")
+            .note(
+                "Two magnets of 40 × 40 × 20 mm, 1.3 T, offset (20, 0, 30) mm: closed forms of the \
+            torque disagree in the literature, here it is integrated from the field.",
+            );
     let magnet =
         Magnet { size_m: Vector3::new(0.04, 0.04, 0.02), remanence_t: Vector3::new(0.0, 0.0, 1.3) };
     let offset = Vector3::new(0.02, 0.0, 0.03);

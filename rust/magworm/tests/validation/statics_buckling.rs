@@ -71,10 +71,23 @@ fn topped(soft_elements: usize, load: f64) -> (World, Loads) {
 #[test]
 fn validates_buckling() {
     let mut case = Case::new("buckling", "Buckling of a clamped column")
-        .equation("Greenhill: (ρAgL³/EI)_c = 7.8373; Euler: (PL²/EI)_c = π²/4; general: EI θ″ + (P + w (L − s)) θ = 0, θ(0) = 0, EI θ′(L) = P o θ(L)")
-        .source("A. G. Greenhill, Proc. Camb. Phil. Soc. 4 (1881) 65; L. Euler (1744), in S. P. Timoshenko, J. M. Gere, Theory of Elastic Stability; the general equation is solved in the test by shooting")
+        .equation(
+            "Greenhill: (ρAgL³/EI)_c = 7.8373; Euler: (PL²/EI)_c = π²/4; general: EI θ″ + \
+            (P + w (L − s)) θ = 0, θ(0) = 0, EI θ′(L) = P o θ(L)",
+        )
+        .source(
+            "A. G. Greenhill, Proc. Camb. Phil. Soc. 4 (1881) 65; L. Euler (1744), in S. P. \
+            Timoshenko, J. M. Gere, Theory of Elastic Stability; the general equation is solved \
+            in the test by shooting",
+        )
         .scene(ROD, &STANDING)
-        .note("The critical load is found by bisection: after a push of 1e-6 m/s the deflection of the tip shrinks below it and grows above it. In Euler's column the load is the weight of a rigid magnet, one element long, on a rod without weight: it acts a distance o, half an element, above the soft length L. o and the rod's remaining weight are in the reference.");
+        .note(
+            "The critical load is found by bisection: after a push of 1e-6 m/s the deflection \
+            of the tip shrinks below it and grows above it. In Euler's column the load is the \
+            weight of a rigid magnet, one element long, on a rod without weight: it acts a \
+            distance o, half an element, above the soft length L. o and the rod's remaining \
+            weight are in the reference.",
+        );
     let greenhill = buckling_factor(Loads { weight: 1.0, tip: 0.0, overhang: 0.0 });
     let euler = buckling_factor(Loads { weight: 0.0, tip: 1.0, overhang: 0.0 });
     case.relative("reference: Greenhill's number", "", [greenhill, 7.837347], 1e-7);

@@ -64,9 +64,18 @@ fn validates_end_moment() {
         [("body.magnets", "[{position_m=…,polarity=1}]"), ("field", "{x_t=…,y_t=…}"), THICK];
     let mut case = Case::new("end_moment", "Couple at the tip")
         .equation("θ(L) = ML/EI; tip at L (sin θ/θ, (1 − cos θ)/θ)")
-        .source("Euler–Bernoulli; a standard patch test of rods, e.g. J. C. Simo, L. Vu-Quoc, Comput. Methods Appl. Mech. Eng. 58 (1986) 79")
+        .source(
+            "Euler–Bernoulli; a standard patch test of rods, e.g. J. C. Simo, L. Vu-Quoc, \
+            Comput. Methods Appl. Mech. Eng. 58 (1986) 79",
+        )
         .scene(ROD, &[&RELAXED[..1], &RELAXED[2..], &edits[..]].concat())
-        .note("The couple is m × B of a magnet at the tip, one element long, in a uniform field that the test turns between the steps, so that it stays perpendicular to the magnet; such a couple feeds vibrations, hence τ = 0.2 s. m = Br V/μ0. With κ = φ each node turns by Ml/EI as the arc does: the tip's angle has no error of the mesh, its place is of second order. κ = 2 tan(φ/2) has no band here.");
+        .note(
+            "The couple is m × B of a magnet at the tip, one element long, in a uniform field \
+            that the test turns between the steps, so that it stays perpendicular to the magnet; \
+            such a couple feeds vibrations, hence τ = 0.2 s. m = Br V/μ0. With κ = φ each node \
+            turns by Ml/EI as the arc does: the tip's angle has no error of the mesh, its place \
+            is of second order. κ = 2 tan(φ/2) has no band here.",
+        );
     let mut refined = Refined::new("Couple at the tip: error of the tip", "error / L");
     let mut shapes = Figure::new("Couple at the tip, 40 elements", "x / L", "y / L", Axes::Equal);
     for (name, theta) in [("π/2", 0.5 * PI), ("π", PI), ("2π", 2.0 * PI)] {
@@ -135,9 +144,15 @@ fn validates_tip_magnet() {
         [("body.magnets", "[{position_m=…,polarity=1}]"), ("field", "{x_t=…,y_t=…}"), THICK];
     let mut case = Case::new("tip_magnet", "Magnet at the tip in a uniform field")
         .equation("θ = c sin(φ − θ), c = mBL/EI; the rod is an arc of angle θ")
-        .source("Balance of m × B and EI θ/L; solved in the test by bisection. For φ = 90°: 25.794°, 42.346°, 59.007°")
+        .source(
+            "Balance of m × B and EI θ/L; solved in the test by bisection. For φ = 90°: \
+            25.794°, 42.346°, 59.007°",
+        )
         .scene(ROD, &[&RELAXED[..], &edits[..]].concat())
-        .note("m = Br V/μ0; the magnet at the tip is one element long. φ is the angle from the moment at rest to the field.");
+        .note(
+            "m = Br V/μ0; the magnet at the tip is one element long. φ is the angle from the \
+            moment at rest to the field.",
+        );
     let mut refined = Refined::new("Magnet at the tip, φ = 90°: error of the tip", "error / L");
     for (load, quoted_deg) in [(0.5, 25.794), (1.0, 42.346), (2.0, 59.007f64)] {
         let theta = balance(load, 0.5 * PI);
@@ -206,10 +221,16 @@ fn validates_pitchfork() {
     let edits =
         [("body.magnets", "[{position_m=…,polarity=1}]"), ("field", "{x_t=0.0,y_t=…}"), THICK];
     let mut case = Case::new("pitchfork", "Magnet opposite to the field")
-        .equation("θ = c sin θ, c = mBL/EI: θ = 0 alone for c ≤ 1, two bent states beyond (pitchfork)")
+        .equation(
+            "θ = c sin θ, c = mBL/EI: θ = 0 alone for c ≤ 1, two bent states beyond \
+            (pitchfork)",
+        )
         .source("The equation of the magnet at the tip, φ = 180°; solved in the test by bisection")
         .scene(ROD, &[&RELAXED[..], &edits[..]].concat())
-        .note("The rod gets a push of 0.05 rad/s and settles. Near c = 1 the angle is ill-conditioned, θ ≈ √(6 (c − 1)).");
+        .note(
+            "The rod gets a push of 0.05 rad/s and settles. Near c = 1 the angle is \
+            ill-conditioned, θ ≈ √(6 (c − 1)).",
+        );
     let mut fork = Figure::new("Magnet opposite to the field", "c = mBL/EI", "θ [°]", Axes::Linear);
     let mut found = Vec::new();
     for load in [0.9, 0.98, 0.995, 1.005, 1.02, 1.1, 1.5, 2.0] {
