@@ -4,8 +4,9 @@ use super::Scene;
 use super::error::{Problem, SceneError};
 
 /// Name and text of each preset.
-const TEXTS: [(&str, &str); 6] = [
+const TEXTS: [(&str, &str); 7] = [
     ("paper-3", include_str!("../../scenes/paper-3.toml")),
+    ("paper-3-experiment", include_str!("../../scenes/paper-3-experiment.toml")),
     ("paper-4", include_str!("../../scenes/paper-4.toml")),
     ("paper-5", include_str!("../../scenes/paper-5.toml")),
     ("cantilever", include_str!("../../scenes/cantilever.toml")),
@@ -15,7 +16,7 @@ const TEXTS: [(&str, &str); 6] = [
 
 /// Names that [`Scene::preset`] knows.
 pub const PRESETS: &[&str] =
-    &[TEXTS[0].0, TEXTS[1].0, TEXTS[2].0, TEXTS[3].0, TEXTS[4].0, TEXTS[5].0];
+    &[TEXTS[0].0, TEXTS[1].0, TEXTS[2].0, TEXTS[3].0, TEXTS[4].0, TEXTS[5].0, TEXTS[6].0];
 
 impl Scene {
     /// One of [`PRESETS`].
