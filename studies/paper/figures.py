@@ -64,10 +64,17 @@ def panels(rows: int = 1, columns: int = 1, size: tuple[float, float] = (6.8, 3.
         return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
 
 
-def legend_above(axes: Any, columns: int = 3) -> None:
-    """Puts the legend over the axes, where it covers no data."""
+def legend_above(figure: Any, axes: Any, columns: int = 4) -> None:
+    """Puts the legend of axes over the whole figure, where it covers no data."""
+    handles, labels = axes.get_legend_handles_labels()
     with mpl.rc_context(STYLE):
-        axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, borderaxespad=0.2)
+        figure.legend(handles, labels, loc="outside upper left", ncols=columns, borderaxespad=0.0)
+
+
+def legend_beside(axes: Any, place: str = "best") -> None:
+    """Puts a legend inside axes that leave room for it."""
+    with mpl.rc_context(STYLE):
+        axes.legend(loc=place)
 
 
 def paper_mark(axes: Any, x: float, y: float, label: str | None) -> None:

@@ -35,6 +35,8 @@ class Quantity:
         holds: Values that the paper's words allow, (low, high); None where it has a number or nothing.
         spread: Standard deviation of the model's number over repetitions, or the grid it was found on.
         digits: Decimals to print.
+        note: Said after the verdict.
+        listed: Whether the table at the top of the page has it; its section has it anyway.
     """
 
     key: str
@@ -47,6 +49,8 @@ class Quantity:
     holds: tuple[float, float] | None = None
     spread: float = 0.0
     digits: int = 2
+    note: str = ""
+    listed: bool = True
 
     @property
     def error(self) -> float | None:
@@ -99,6 +103,11 @@ def verdict(quantity: Quantity, inside: bool) -> str:
         inside: Whether the model is within the band of ``bands.toml``: for a target and a closed form
             this is the required accuracy.
     """
+    words = _comparison(quantity, inside)
+    return f"{words}; {quantity.note}" if quantity.note else words
+
+
+def _comparison(quantity: Quantity, inside: bool) -> str:
     if quantity.origin is Origin.TARGET:
         return "met" if inside else "**missed**"
     if quantity.origin is Origin.CLOSED_FORM:

@@ -1,0 +1,206 @@
+"""Stride against the speed of the drive, for robots with three, four and five magnets."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from studies.paper.figures import BY_MAGNETS, FAINT, PAPER, legend_above, paper_mark, panels
+from studies.paper.passes import AHEADS_M, FRICTIONS, PASSES, Walk, measured_strides
+from studies.paper.quantity import Origin, Quantity, number
+from studies.paper.robot_picture import MM
+from studies.paper.scenes import EXPERIMENT, SIMULATION, has_experiment, robot
+from studies.paper.section import Image, Section
+from studies.paper.wording import COUNTS, listed, ranking, trend
+
+Floats = NDArray[np.float64]
+
+PLATFORM_MM_S = 210.0
+"""Paper: the platform's limit."""
+SLOW_MM_S, PEAK_MM_S, CROSSING_MM_S = 65.0, 110.0, 150.0
+"""Paper: strides are equal below, three magnets peak at, five win above."""
+PAPER_PEAK_MM, PAPER_FIVE_MM = 4.3, 6.0
+GRID_MM_S = 10.0
+SPEEDS_MM_S = np.concatenate([np.arange(20.0, 211.0, GRID_MM_S), np.arange(240.0, 401.0, 40.0)])
+BACKWARD = "four, backward"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Stride against speed.
+
+    Attributes:
+        mean: Stride at each of the speeds (S,) [mm].
+        spread: Its standard deviation (S,) [mm].
+        length: Length of the robot [mm].
+    """
+
+    mean: Floats
+    spread: Floats
+    length: float
+
+    def at(self, speed_mm_s: float) -> float:
+        """Stride at the nearest speed [mm]."""
+        return float(self.mean[np.abs(SPEEDS_MM_S - speed_mm_s).argmin()])
+
+
+def within(low_mm_s: float, high_mm_s: float = PLATFORM_MM_S) -> NDArray[np.bool_]:
+    """Which speeds lie in a range (S,)."""
+    return np.asarray((low_mm_s <= SPEEDS_MM_S) & (high_mm_s >= SPEEDS_MM_S))
+
+
+def measured_curves(family: str) -> dict[str, Curve]:
+    """Curves of all robots with the parameters of a preset, by name."""
+    robots = {COUNTS[count]: (robot(count, family), False) for count in BY_MAGNETS}
+    robots[BACKWARD] = (robot(4, family), True)
+    walks = [Walk(scene, 1e-3 * v, back) for scene, back in robots.values() for v in SPEEDS_MM_S]
+    strides = measured_strides(walks)
+    table = MM * np.array([(stride.mean_m, stride.spread_m) for stride in strides])
+    table = table.reshape(len(robots), len(SPEEDS_MM_S), 2)
+    return {
+        name: Curve(rows[:, 0], rows[:, 1], MM * scene.body_length_m)
+        for (name, (scene, _)), rows in zip(robots.items(), table, strict=True)
+    }
+
+
+def stride_section() -> Section:
+    """Runs the sweep with each family of presets."""
+    families = [SIMULATION, *([EXPERIMENT] if has_experiment() else [])]
+    curves = {family: measured_curves(family) for family in families}
+    count = PASSES * len(AHEADS_M) * len(FRICTIONS)
+    text = (
+        "The paper measured these curves with its robots; its figures are those of an experiment. Drive magnets "
+        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {PASSES} in a row, from "
+        f"{len(AHEADS_M)} starts, with static friction changed by −2, 0 and +2 %. Bars are the standard deviation. "
+        f"Speeds beyond {PLATFORM_MM_S:g} mm/s are out of reach of the paper's platform.\n\n"
+    )
+    text += "\n\n".join(_text(family, found) for family, found in curves.items())
+    quantities = [q for family, found in curves.items() for q in _quantities(family, found)]
+    images = [
+        Image(
+            "stride" if family == SIMULATION else "stride-experiment",
+            f"Stride and stride over body length against the speed of the drive, parameters of `{family}`."
+            " Diamonds: the paper's numbers; shaded: beyond its platform.",
+            _figure(found),
+        )
+        for family, found in curves.items()
+    ]
+    data = {
+        family: {name: {"mean_mm": c.mean.tolist(), "spread_mm": c.spread.tolist()} for name, c in found.items()}
+        for family, found in curves.items()
+    }
+    data["speed_mm_s"] = SPEEDS_MM_S.tolist()
+    return Section("Stride against the speed of the drive", text, images, quantities, data)
+
+
+def crossing_mm_s(three: Curve, five: Curve) -> float:
+    """Lowest speed on the platform from which on five magnets make the longer stride; infinite if there is none."""
+    shown = within(0.0)
+    above = five.mean[shown] > three.mean[shown]
+    losing = np.flatnonzero(~above)
+    first = 0 if len(losing) == 0 else int(losing[-1]) + 1
+    return float(SPEEDS_MM_S[shown][first]) if first < len(above) else float("inf")
+
+
+def slow_spread_percent(curves: Mapping[str, Curve]) -> float:
+    """How much longer the longest of the three strides is than the shortest below 65 mm/s [%]."""
+    slow = within(0.0, SLOW_MM_S)
+    means = [float(curves[COUNTS[count]].mean[slow].mean()) for count in BY_MAGNETS]
+    return 100.0 * (max(means) / min(means) - 1.0) if min(means) > 0.0 else float("inf")
+
+
+def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
+    three, four, five, back = (curves[name] for name in ("three", "four", "five", BACKWARD))
+    key, mark = ("stride", "") if family == SIMULATION else ("stride_experiment", f", {EXPERIMENT}")
+    on, slow, fast = within(0.0), within(0.0, CROSSING_MM_S - 1.0), within(CROSSING_MM_S + 1.0)
+    top = int(three.mean[on].argmax())
+    lead_slow = float((three.mean - np.maximum(four.mean, five.mean))[slow].mean())
+    lead_fast = float((five.mean - np.maximum(three.mean, four.mean))[fast].mean())
+    ways = float(np.abs(four.mean - back.mean)[on].mean())
+    falling = (-np.inf, -1e-9)
+
+    def held(name: str, what: str, unit: str, model: float, **more: Any) -> Quantity:
+        return Quantity(f"{key}.{name}", f"Stride{mark}: {what}", unit, float(model), Origin.HELD_BACK, **more)
+
+    return [
+        held("slow", "longest over shortest of 3, 4, 5 below 65 mm/s", "%", slow_spread_percent(curves),
+             claim="nearly equal (read as within 20 %)", holds=(0.0, 20.0), digits=0),
+        held("three_peak", "longest of three magnets", "mm", three.mean[on][top], paper=PAPER_PEAK_MM,
+             spread=float(three.spread[on][top])),
+        held("three_peak_speed", "three are best at", "mm/s", SPEEDS_MM_S[on][top], paper=PEAK_MM_S,
+             spread=GRID_MM_S, digits=0),
+        held("three_change", "three, change from 110 to 210 mm/s", "mm", three.at(210.0) - three.at(110.0),
+             claim="falls (below 0)", holds=falling),
+        held("four_change", "four, change from 110 to 210 mm/s", "mm", four.at(210.0) - four.at(110.0),
+             claim="falls (below 0)", holds=falling),
+        held("five_change", "five, change from 110 to 210 mm/s", "mm", five.at(210.0) - five.at(110.0),
+             claim="rises (above 0)", holds=(1e-9, np.inf)),
+        held("five_fast", "five at 210 mm/s", "mm", five.at(210.0), paper=PAPER_FIVE_MM,
+             spread=float(five.spread[on][-1])),
+        held("lead_slow", "lead of three below 150 mm/s, mean", "mm", lead_slow,
+             claim="three are best (above 0)", holds=(1e-9, np.inf)),
+        held("lead_fast", "lead of five above 150 mm/s, mean", "mm", lead_fast,
+             claim="five are best (above 0)", holds=(1e-9, np.inf)),
+        held("crossing", "five lead three from", "mm/s", crossing_mm_s(three, five), paper=CROSSING_MM_S,
+             spread=GRID_MM_S, digits=0),
+        held("stall", "three at 210 mm/s, of their best", "%", 100.0 * three.at(210.0) / three.mean[on][top],
+             claim="stall (read as below half)", holds=(-np.inf, 50.0), digits=0),
+        held("direction", "four, difference of forward and backward, mean", "mm", ways,
+             claim="different (read as above 0.1 mm)", holds=(0.1, np.inf)),
+    ]  # fmt: skip
+
+
+def _text(family: str, curves: Mapping[str, Curve]) -> str:
+    on, slow, middle, fast = within(0.0), within(0.0, SLOW_MM_S), within(SLOW_MM_S, PEAK_MM_S), within(PEAK_MM_S)
+    lines = []
+    for name, curve in curves.items():
+        top = int(curve.mean[on].argmax())
+        scale = float(np.abs(curve.mean[on]).max())
+        course = (trend(curve.mean[part], scale) for part in (slow, middle, fast))
+        below, between, above = course
+        low = int(curve.mean[on].argmin())
+        backward = (
+            f" Between {SPEEDS_MM_S[on][curve.mean[on] < 0.0][0]:g} and {SPEEDS_MM_S[on][curve.mean[on] < 0.0][-1]:g} mm/s "
+            f"it is carried with the drive, at worst {number(curve.mean[on][low], 1)} mm a pass."
+            if (curve.mean[on] < 0.0).any()
+            else ""
+        )
+        lines.append(
+            f"- **{name}**: {number(curve.mean[on][0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, "
+            f"{number(curve.at(210.0), 2)} at 210 mm/s; longest {number(curve.mean[on][top], 2)} mm at "
+            f"{SPEEDS_MM_S[on][top]:g} mm/s. It {below} below 65 mm/s, {between} up to 110 mm/s and {above} from there "
+            f"to 210 mm/s.{backward}"
+        )
+    orders = [
+        f"{ranking({name: curve.at(speed) for name, curve in curves.items() if name != BACKWARD})} at {speed:g} mm/s"
+        for speed in (60.0, 110.0, 160.0, 210.0)
+    ]
+    return f"`{family}`:\n\n" + "\n".join(lines) + f"\n- Order: {listed(orders)}."
+
+
+def _figure(curves: Mapping[str, Curve]) -> Any:
+    figure, axes = panels(1, 2, (9.2, 3.9))
+    shades = {COUNTS[count]: shade for count, shade in BY_MAGNETS.items()} | {BACKWARD: BY_MAGNETS[4]}
+    for axis, normalised in zip(axes, (False, True), strict=True):
+        for name, curve in curves.items():
+            scale = curve.length if normalised else 1.0
+            style = {"ls": "--", "marker": "s", "mfc": "white"} if name == BACKWARD else {"marker": "o"}
+            label = f"{name.replace(',', ' magnets,')}" if name == BACKWARD else f"{name} magnets"
+            axis.errorbar(SPEEDS_MM_S, curve.mean / scale, curve.spread / scale, color=shades[name], ms=3.5, lw=1.3,
+                          elinewidth=0.9, label=label, **style)  # fmt: skip
+        three, five = (curves[name].length if normalised else 1.0 for name in ("three", "five"))
+        paper_mark(axis, PEAK_MM_S, PAPER_PEAK_MM / three, "paper, experiment")
+        paper_mark(axis, PLATFORM_MM_S, PAPER_FIVE_MM / five, None)
+        axis.axvspan(PLATFORM_MM_S, SPEEDS_MM_S[-1] + 10.0, color=FAINT, alpha=0.35, lw=0)
+        axis.axhline(0.0, color=PAPER, lw=0.6)
+        axis.set_xlim(0.0, SPEEDS_MM_S[-1] + 10.0)
+        axis.set_xlabel("speed of the drive [mm/s]")
+        axis.annotate("three", (PEAK_MM_S, PAPER_PEAK_MM / three), (0, -13), textcoords="offset points", fontsize=7.5,
+                      ha="center")  # fmt: skip
+        axis.annotate("five", (PLATFORM_MM_S, PAPER_FIVE_MM / five), (7, -3), textcoords="offset points", fontsize=7.5)
+    axes[0].set_ylabel("stride [mm]")
+    axes[1].set_ylabel("stride / body length")
+    legend_above(figure, axes[0], 5)
+    return figure
