@@ -32,7 +32,7 @@ VACUUM_PERMEABILITY = 4e-7 * math.pi
 
 
 def load_factor(field_t: float) -> float:
-    """m B L/EI of the rod in a field."""
+    """M B L/EI of the rod in a field."""
     moment = REMANENCE_T * MAGNET_M * MAGNET_WIDTH_M * MAGNET_HEIGHT_M / VACUUM_PERMEABILITY
     rigidity = MODULUS_PA * WIDTH_M * THICKNESS_M**3 / 12.0
     return moment * field_t * SOFT_M / rigidity
@@ -102,7 +102,9 @@ def cantilever_section() -> Section:
     runs = record_scenes(scenes, SETTLED_S, SAMPLE_S)
     grid = (len(FIELDS_T), len(DIRECTIONS_DEG))
     angles = np.array([run.magnet_poses[-1, 0, 2] for run in runs]).reshape(grid)
-    exact = np.array([[exact_angle(load_factor(f), math.radians(d)) for d in DIRECTIONS_DEG] for f in FIELDS_T])
+    exact = np.array(
+        [[exact_angle(load_factor(f), math.radians(d)) for d in DIRECTIONS_DEG] for f in FIELDS_T]
+    )
     off_arc = np.array([_off_arc(run, theta) for run, theta in zip(runs, exact.flat, strict=True)])
     worst = float(np.abs(angles / exact - 1.0).max())
     weak = np.degrees(angles[0])

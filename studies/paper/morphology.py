@@ -71,9 +71,14 @@ def morphology_section() -> Section:
         "The drive starts 50 mm ahead of the head end and moves at 100 mm/s for 1.5 s. The stages follow the place "
         "of the drive: I ahead of the first magnet, II and III ahead of and behind the middle one, IV behind the "
         f"last ({times}). Torques and forces are those of the drive at the recorded poses; anticlockwise is positive "
-        "with the head on the left.\n\n" + table(["what", "paper", "model", "agrees"], rows) + "\n\n" + _text(walk)
+        "with the head on the left.\n\n"
+        + table(["what", "paper", "model", "agrees"], rows)
+        + "\n\n"
+        + _text(walk)
     )
-    image = Image("morphology", "One pass, two instants of each stage; the head is on the left.", _figure(walk))
+    image = Image(
+        "morphology", "One pass, two instants of each stage; the head is on the left.", _figure(walk)
+    )
     return Section("Crawling morphology in four stages", text, [image], [_summary(checks), *checks])
 
 
@@ -88,7 +93,9 @@ def _summary(checks: list[Quantity]) -> Quantity:
 
 def _check(key: str, what: str, unit: str, model: float, claim: str, holds: tuple[float, float]) -> Quantity:
     """One statement of the paper about a stage."""
-    return Quantity(f"stages.{key}", what, unit, float(model), Origin.HELD_BACK, claim=claim, holds=holds, listed=False)
+    return Quantity(
+        f"stages.{key}", what, unit, float(model), Origin.HELD_BACK, claim=claim, holds=holds, listed=False
+    )
 
 
 def _stage_one(walk: Pass) -> list[Quantity]:

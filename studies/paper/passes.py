@@ -17,12 +17,14 @@ from studies.paper.scenes import AHEAD_M, SEPARATION_M, on_belt
 
 Floats = NDArray[np.float64]
 
-PASSES = 4
-AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007, AHEAD_M + 0.0013)
+PASSES = 3
+AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007)
 """Ours: where the first magnet starts, within a few solver steps of each other."""
 FRICTIONS = (0.98, 1.0, 1.02)
 """Ours: factors of the static coefficient of friction."""
 SAMPLE_S = 0.01
+CARRIED_M = 0.020
+"""Ours: a robot that moves further than one magnet pitch with the drive in a pass was carried along."""
 
 
 @dataclass(frozen=True)
@@ -42,10 +44,17 @@ class Walk:
 
 @dataclass(frozen=True)
 class Stride:
-    """Mean and standard deviation over passes and conditions [m]."""
+    """Passes of one robot under all conditions.
+
+    Attributes:
+        mean_m: Mean of the passes before it was carried along [m]; of all, where there are none.
+        spread_m: Their standard deviation [m].
+        carried: Share of the conditions in which the drive carried it along.
+    """
 
     mean_m: float
     spread_m: float
+    carried: float
 
 
 def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M) -> list[Stride]:
@@ -71,10 +80,21 @@ def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M
         strides_of(record, end, walk.backward)
         for record, end, (walk, _, _) in zip(records, ends, runs, strict=True)
     ]
-    return [
-        Stride(float(group.mean()), float(group.std()))
-        for group in np.array(ways).reshape(len(walks), -1)
-    ]
+    return [averaged(group) for group in np.array(ways).reshape(len(walks), len(conditions), PASSES)]
+
+
+def averaged(ways_m: Floats) -> Stride:
+    """Averages the passes of one robot.
+
+    A robot that was carried along no longer meets the magnets when the others do: what it does from
+    then on is left out of mean and spread.
+
+    Args:
+        ways_m: Way against the motion of the drive (conditions, passes) [m].
+    """
+    gone = np.logical_or.accumulate(ways_m < -CARRIED_M, axis=1)
+    kept = ways_m if gone.all() else ways_m[~gone]
+    return Stride(float(kept.mean()), float(kept.std()), float(gone[:, -1].mean()))
 
 
 def pass_ends_s(walk: Walk, ahead_m: float) -> Floats:

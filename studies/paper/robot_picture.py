@@ -46,9 +46,7 @@ def draw_ground(axes: Any) -> None:
     axes.axhline(0.0, color=colour(palette.GROUND_LINE), lw=1.0, zorder=2)
 
 
-def draw_magnet(
-    axes: Any, pose: Any, size_m: tuple[float, float], polarity: float, share: float
-) -> None:
+def draw_magnet(axes: Any, pose: Any, size_m: tuple[float, float], polarity: float, share: float) -> None:
     """Draws a magnet: north red, south blue; polarity 0 for one that was taken out.
 
     Args:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.paper.figures import BY_MAGNETS, FAINT, PAPER, legend_above, paper_mark, panels
+from studies.paper.figures import BY_MAGNETS, FAINT, PAPER, legend_above, panels, paper_mark
 from studies.paper.passes import AHEADS_M, FRICTIONS, PASSES, Walk, measured_strides
 from studies.paper.quantity import Origin, Quantity, number
 from studies.paper.robot_picture import MM
@@ -34,11 +34,13 @@ class Curve:
     Attributes:
         mean: Stride at each of the speeds (S,) [mm].
         spread: Its standard deviation (S,) [mm].
+        carried: Share of the conditions in which the drive carried the robot along (S,).
         length: Length of the robot [mm].
     """
 
     mean: Floats
     spread: Floats
+    carried: Floats
     length: float
 
     def at(self, speed_mm_s: float) -> float:
@@ -57,11 +59,11 @@ def measured_curves(family: str) -> dict[str, Curve]:
     robots[BACKWARD] = (robot(4, family), True)
     walks = [Walk(scene, 1e-3 * v, back) for scene, back in robots.values() for v in SPEEDS_MM_S]
     strides = measured_strides(walks)
-    table = MM * np.array([(stride.mean_m, stride.spread_m) for stride in strides])
-    table = table.reshape(len(robots), len(SPEEDS_MM_S), 2)
+    rows = [(MM * stride.mean_m, MM * stride.spread_m, stride.carried) for stride in strides]
+    table = np.array(rows).reshape(len(robots), len(SPEEDS_MM_S), 3)
     return {
-        name: Curve(rows[:, 0], rows[:, 1], MM * scene.body_length_m)
-        for (name, (scene, _)), rows in zip(robots.items(), table, strict=True)
+        name: Curve(*columns.T, MM * scene.body_length_m)
+        for (name, (scene, _)), columns in zip(robots.items(), table, strict=True)
     }
 
 
@@ -72,8 +74,9 @@ def stride_section() -> Section:
     count = PASSES * len(AHEADS_M) * len(FRICTIONS)
     text = (
         "The paper measured these curves with its robots; its figures are those of an experiment. Drive magnets "
-        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {PASSES} in a row, from "
-        f"{len(AHEADS_M)} starts, with static friction changed by −2, 0 and +2 %. Bars are the standard deviation. "
+        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {COUNTS[PASSES]} in a row, from "
+        f"{COUNTS[len(AHEADS_M)]} starts, with static friction changed by −2, 0 and +2 %. Bars are the standard "
+        "deviation. A run in which the drive carries the robot along, by more than 20 mm in a pass, counts up to then. "
         f"Speeds beyond {PLATFORM_MM_S:g} mm/s are out of reach of the paper's platform.\n\n"
     )
     text += "\n\n".join(_text(family, found) for family, found in curves.items())
@@ -88,7 +91,10 @@ def stride_section() -> Section:
         for family, found in curves.items()
     ]
     data = {
-        family: {name: {"mean_mm": c.mean.tolist(), "spread_mm": c.spread.tolist()} for name, c in found.items()}
+        family: {
+            name: {"mean_mm": c.mean.tolist(), "spread_mm": c.spread.tolist(), "carried": c.carried.tolist()}
+            for name, c in found.items()
+        }
         for family, found in curves.items()
     }
     data["speed_mm_s"] = SPEEDS_MM_S.tolist()
@@ -122,7 +128,9 @@ def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
     falling = (-np.inf, -1e-9)
 
     def held(name: str, what: str, unit: str, model: float, **more: Any) -> Quantity:
-        return Quantity(f"{key}.{name}", f"Stride{mark}: {what}", unit, float(model), Origin.HELD_BACK, **more)
+        return Quantity(
+            f"{key}.{name}", f"Stride{mark}: {what}", unit, float(model), Origin.HELD_BACK, **more
+        )
 
     return [
         held("slow", "longest over shortest of 3, 4, 5 below 65 mm/s", "%", slow_spread_percent(curves),
@@ -153,31 +161,38 @@ def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
 
 
 def _text(family: str, curves: Mapping[str, Curve]) -> str:
-    on, slow, middle, fast = within(0.0), within(0.0, SLOW_MM_S), within(SLOW_MM_S, PEAK_MM_S), within(PEAK_MM_S)
-    lines = []
-    for name, curve in curves.items():
-        top = int(curve.mean[on].argmax())
-        scale = float(np.abs(curve.mean[on]).max())
-        course = (trend(curve.mean[part], scale) for part in (slow, middle, fast))
-        below, between, above = course
-        low = int(curve.mean[on].argmin())
-        backward = (
-            f" Between {SPEEDS_MM_S[on][curve.mean[on] < 0.0][0]:g} and {SPEEDS_MM_S[on][curve.mean[on] < 0.0][-1]:g} mm/s "
-            f"it is carried with the drive, at worst {number(curve.mean[on][low], 1)} mm a pass."
-            if (curve.mean[on] < 0.0).any()
-            else ""
-        )
-        lines.append(
-            f"- **{name}**: {number(curve.mean[on][0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, "
-            f"{number(curve.at(210.0), 2)} at 210 mm/s; longest {number(curve.mean[on][top], 2)} mm at "
-            f"{SPEEDS_MM_S[on][top]:g} mm/s. It {below} below 65 mm/s, {between} up to 110 mm/s and {above} from there "
-            f"to 210 mm/s.{backward}"
-        )
     orders = [
         f"{ranking({name: curve.at(speed) for name, curve in curves.items() if name != BACKWARD})} at {speed:g} mm/s"
         for speed in (60.0, 110.0, 160.0, 210.0)
     ]
+    lines = [f"- **{name}**: {_course(curve)}" for name, curve in curves.items()]
     return f"`{family}`:\n\n" + "\n".join(lines) + f"\n- Order: {listed(orders)}."
+
+
+def _course(curve: Curve) -> str:
+    """A sentence on how the stride changes with the speed on the platform."""
+    on = within(0.0)
+    mean, speeds = curve.mean[on], SPEEDS_MM_S[on]
+    scale = float(np.abs(mean).max())
+    parts = (within(0.0, SLOW_MM_S), within(SLOW_MM_S, PEAK_MM_S), within(PEAK_MM_S))
+    below, between, above = (trend(curve.mean[part], scale) for part in parts)
+    sentences = (
+        f"{number(mean[0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, {number(curve.at(210.0), 2)} at "
+        f"210 mm/s; longest {number(float(mean.max()), 2)} mm at {speeds[mean.argmax()]:g} mm/s. It {below} below "
+        f"65 mm/s, {between} up to 110 mm/s and {above} from there to 210 mm/s."
+    )
+    if (mean < 0.0).any():
+        backward = listed([f"{speed:g}" for speed in speeds[mean < 0.0]])
+        sentences += (
+            f" At {backward} mm/s it moves with the drive, at worst {number(float(mean.min()), 1)} mm a pass."
+        )
+    if curve.carried[on].any():
+        places = zip(speeds, curve.carried[on], strict=True)
+        shares = listed(
+            [f"{100.0 * share:.0f} % of the runs at {speed:g} mm/s" for speed, share in places if share]
+        )
+        sentences += f" The drive carries it along in {shares}."
+    return sentences
 
 
 def _figure(curves: Mapping[str, Curve]) -> Any:
@@ -199,7 +214,9 @@ def _figure(curves: Mapping[str, Curve]) -> Any:
         axis.set_xlabel("speed of the drive [mm/s]")
         axis.annotate("three", (PEAK_MM_S, PAPER_PEAK_MM / three), (0, -13), textcoords="offset points", fontsize=7.5,
                       ha="center")  # fmt: skip
-        axis.annotate("five", (PLATFORM_MM_S, PAPER_FIVE_MM / five), (7, -3), textcoords="offset points", fontsize=7.5)
+        axis.annotate(
+            "five", (PLATFORM_MM_S, PAPER_FIVE_MM / five), (7, -3), textcoords="offset points", fontsize=7.5
+        )
     axes[0].set_ylabel("stride [mm]")
     axes[1].set_ylabel("stride / body length")
     legend_above(figure, axes[0], 5)
