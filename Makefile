@@ -21,7 +21,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo validate test bench wheel lint format docs clean install \
+.PHONY: help demo validate paper test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -32,6 +32,9 @@ demo: install-train  ## train a controller, compare it with the belts, print the
 
 validate: install-train need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
 	$(VENV_PYTHON) studies/validation/validate.py
+
+paper: install-test  ## simulate the paper's experiments again: docs/paper.md beside its figures
+	$(VENV_PYTHON) -m studies.paper
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
 

@@ -33,7 +33,8 @@ def ablations_section() -> Section:
         images=[
             Image(
                 "ablations",
-                "Way of the third magnet towards the head with one component alone. Left: all; right: the same, enlarged.",
+                "Way of the third magnet towards the head with one component alone. Left: all; right: the "
+                "same, enlarged.",
                 _figure(records),
             )
         ],
@@ -51,25 +52,38 @@ def _quantities(ways: dict[str, float]) -> list[Quantity]:
     vertical, torque = ways["vertical force"], ways["torque"]
     return [
         Quantity(
-            "ablation.horizontal", "Third magnet forward, horizontal force only", "mm", ways["horizontal force"],
-            Origin.TARGET, claim="not obvious",
+            "ablation.horizontal",
+            "Third magnet forward, horizontal force only",
+            "mm",
+            ways["horizontal force"],
+            Origin.TARGET,
+            claim="not obvious",
         ),
         Quantity(
-            "ablation.torque", "Third magnet forward, torque only", "mm", torque, Origin.TARGET,
+            "ablation.torque",
+            "Third magnet forward, torque only",
+            "mm",
+            torque,
+            Origin.TARGET,
             claim="contributes (above 0)",
         ),
         Quantity(
-            "ablation.vertical", "… vertical force only, beyond torque only", "mm", vertical - torque, Origin.TARGET,
+            "ablation.vertical",
+            "… vertical force only, beyond torque only",
+            "mm",
+            vertical - torque,
+            Origin.TARGET,
             claim="vertical contributes most (above 0)",
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _text(ways: dict[str, float]) -> str:
     single = {name: way for name, way in ways.items() if name != "all"}
     horizontal = single["horizontal force"]
     dragged = (
-        f" The horizontal force alone drags the robot {number(-horizontal, 1)} mm along with the drive, where the paper "
+        f" The horizontal force alone drags the robot {number(-horizontal, 1)} mm along with the drive, "
+        "where the paper "
         'calls the displacement "not obvious".'
         if horizontal < -DRAGGED_MM
         else f" The horizontal force alone moves it by {number(horizontal, 2)} mm."

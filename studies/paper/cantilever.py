@@ -111,26 +111,41 @@ def cantilever_section() -> Section:
     top = int(weak.argmax())
     quantities = [
         Quantity(
-            "cantilever.angle", "Case 2: greatest error of the tip's angle", "%", 100.0 * worst,
-            Origin.CLOSED_FORM, claim="θ = (mBL/EI) sin(φ − θ)", digits=3,
+            "cantilever.angle",
+            "Case 2: greatest error of the tip's angle",
+            "%",
+            100.0 * worst,
+            Origin.CLOSED_FORM,
+            claim="θ = (mBL/EI) sin(φ − θ)",
+            digits=3,
         ),
         Quantity(
-            "cantilever.arc", "Case 2: greatest distance from the arc, of L", "%",
-            100.0 * float(off_arc.max()) / SOFT_M, Origin.CLOSED_FORM, claim="circular arc", digits=3,
+            "cantilever.arc",
+            "Case 2: greatest distance from the arc, of L",
+            "%",
+            100.0 * float(off_arc.max()) / SOFT_M,
+            Origin.CLOSED_FORM,
+            claim="circular arc",
+            digits=3,
         ),
         Quantity(
-            "cantilever.decline", "Case 2: fall of the angle from its peak to φ = 170°, 3 mT", "°",
-            float(weak[top] - weak[-1]), Origin.HELD_BACK, claim="declines in the weak field (above 0)",
+            "cantilever.decline",
+            "Case 2: fall of the angle from its peak to φ = 170°, 3 mT",
+            "°",
+            float(weak[top] - weak[-1]),
+            Origin.HELD_BACK,
+            claim="declines in the weak field (above 0)",
             holds=(1e-9, np.inf),
         ),
-    ]  # fmt: skip
+    ]
     return Section(
         title="Case 2: cantilever with a magnet at its tip",
         text=_text(worst, float(off_arc.max()), weak),
         images=[
             Image(
                 "cantilever",
-                "Left: shapes at φ = 90°; lines: arcs, dots: every third node of the model. Right: angle of the tip"
+                "Left: shapes at φ = 90°; lines: arcs, dots: every third node of the model. Right: angle of "
+                "the tip"
                 " against the direction of the field; lines: closed form, dots: model.",
                 _figure(runs, angles, exact),
             )
@@ -147,7 +162,7 @@ def _off_arc(run: Recording, theta: float) -> float:
 
 
 def _bent(run: Recording) -> tuple[Floats, Floats]:
-    """Places along the rod (P,) and at rest (P, 2) of the nodes out of the wall [m]; the first stands in it."""
+    """Places along the rod (P,) and at rest (P, 2) of the nodes outside the wall [m]."""
     along = run.nodes[0, :, 0]
     free = along >= 0.0
     return along[free], run.nodes[-1, free] - (0.0, run.nodes[0, 0, 1])
@@ -158,12 +173,15 @@ def _text(worst: float, off_arc_m: float, weak_deg: Floats) -> str:
     after = "falls" if top < len(weak_deg) - 1 else "does not fall"
     return (
         f"The paper does not give the rod of its Figure 4; this one has L = {MM * SOFT_M:g} mm and "
-        f"mBL/EI = {load_factor(FIELDS_T[0]):.2f} at {MM * FIELDS_T[0]:g} mT, {load_factor(FIELDS_T[-1]):.1f} at "
+        f"mBL/EI = {load_factor(FIELDS_T[0]):.2f} at {MM * FIELDS_T[0]:g} mT, "
+        f"{load_factor(FIELDS_T[-1]):.1f} at "
         f"{MM * FIELDS_T[-1]:g} mT. Gravity is off, as in the closed form. Over {len(FIELDS_T)} fields and "
         f"{len(DIRECTIONS_DEG)} directions the angle of the tip agrees within {100 * worst:.2g} %, the shape "
         f"within {1e6 * off_arc_m:.2g} µm of the arc. "
-        f"In the weak field the angle reaches {number(weak_deg[top], 1)}° at φ = {DIRECTIONS_DEG[top]:g}° and {after} "
-        f"beyond it, to {number(weak_deg[-1], 1)}° at φ = {DIRECTIONS_DEG[-1]:g}°: the decline that the paper sees at "
+        f"In the weak field the angle reaches {number(weak_deg[top], 1)}° at φ = {DIRECTIONS_DEG[top]:g}° "
+        f"and {after} "
+        f"beyond it, to {number(weak_deg[-1], 1)}° at φ = {DIRECTIONS_DEG[-1]:g}°: the decline that the "
+        "paper sees at "
         "3 mT is in the closed form, which for mBL/EI < 1 has only θ = 0 at φ = 180°."
     )
 

@@ -82,7 +82,8 @@ def damaged_section() -> Section:
         images=[
             Image(
                 "damaged",
-                "Stride at 100 mm/s with magnets taken out (○), head on the left, drive from the head (forward) and from the"
+                "Stride at 100 mm/s with magnets taken out (○), head on top, drive from the head "
+                "(forward) and from the"
                 " tail (backward). Triangles: carried along by the drive.",
                 _figure(robots),
             )
@@ -99,8 +100,16 @@ def _quantities(robots: list[Damaged]) -> list[Quantity]:
         key: str, what: str, chosen: list[Damaged], claim: str, holds: tuple[float, float]
     ) -> Quantity:
         count = sum(robot.crawls for robot in chosen)
-        return Quantity(f"damage.{key}", f"{what}: robots that crawl, of {len(chosen)}", "", count, Origin.HELD_BACK,
-                        claim=claim, holds=holds, digits=0)  # fmt: skip
+        return Quantity(
+            f"damage.{key}",
+            f"{what}: robots that crawl, of {len(chosen)}",
+            "",
+            count,
+            Origin.HELD_BACK,
+            claim=claim,
+            holds=holds,
+            digits=0,
+        )
 
     pairs = [r for r in robots if r.magnets == 5 and len(r.removed) == 2]
     fours = [r for r in robots if r.magnets == 4 and len(r.removed) == 1]
@@ -126,8 +135,15 @@ def _text(robots: list[Damaged]) -> str:
     at = SPEEDS_M_S.index(PASS_SPEED_M_S)
     for robot_ in robots:
         best, where = robot_.best
-        rows.append([robot_.name, _words(robot_.forward[at]), _words(robot_.backward[at]), _words(best) if best.carried == 1.0 else f"{_words(best)} ({where})",
-                     "yes" if robot_.crawls else "**no**"])  # fmt: skip
+        rows.append(
+            [
+                robot_.name,
+                _words(robot_.forward[at]),
+                _words(robot_.backward[at]),
+                _words(best) if best.carried == 1.0 else f"{_words(best)} ({where})",
+                "yes" if robot_.crawls else "**no**",
+            ]
+        )
     for magnets, count in TAKEN_OUT:
         group = [r for r in robots if r.magnets == magnets and len(r.removed) == count]
         fit = [r.name for r in group if r.crawls]
@@ -137,9 +153,12 @@ def _text(robots: list[Damaged]) -> str:
         )
     return (
         "Each robot was driven in both directions at "
-        f"{listed([f'{MM * speed:g}' for speed in SPEEDS_M_S])} mm/s. It counts as crawling where it makes more than "
-        f"{MM * CRAWLS_M:g} mm against the motion of the drive in a pass, more than the spread of its passes, and is never "
-        "carried along. A foot whose magnet is taken out stays as stiff as before. The paper shows one pair without "
+        f"{listed([f'{MM * speed:g}' for speed in SPEEDS_M_S])} mm/s. It counts as crawling where it makes "
+        "more than "
+        f"{MM * CRAWLS_M:g} mm against the motion of the drive in a pass, more than the spread of its "
+        "passes, and is never "
+        "carried along. A foot whose magnet is taken out stays as stiff as before. The paper shows one pair "
+        "without "
         "saying which, and states three magnets as the minimum.\n\n"
         + "\n".join(sentences)
         + "\n\n"
@@ -180,7 +199,7 @@ def _figure(robots: list[Damaged]) -> Any:
     for i in range(1, len(groups)):
         if groups[i] != groups[i - 1]:
             axis.axvline(i - 0.5, color=PAPER, lw=0.5)
-    axis.set_xticks(places, [r.name for r in robots], rotation=90, fontsize=8)
+    axis.set_xticks(places, ["\n".join(r.name) for r in robots], fontsize=8, linespacing=0.9)
     axis.set_xlim(-0.7, len(robots) - 0.3)
     axis.set_ylim(bottom=LOWEST_MM)
     axis.set_ylabel("stride at 100 mm/s [mm]")

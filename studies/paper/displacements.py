@@ -27,16 +27,19 @@ def displacements_section() -> Section:
     runs = record_scenes(list(scenes.values()), PASS_S, SAMPLE_S)
     records = dict(zip(scenes, runs, strict=True))
     quantities = _quantities("pass", "simulation", records[SIMULATION], PAPER_SIMULATION_MM, Origin.TARGET)
-    measured = Origin.TARGET if has_experiment() else Origin.HELD_BACK
-    nearest = records.get(EXPERIMENT, records[SIMULATION])
-    quantities += _quantities("experiment", "experiment", nearest, PAPER_EXPERIMENT_MM, measured)
+    if EXPERIMENT in records:
+        key, origin, nearest = "experiment", Origin.TARGET, records[EXPERIMENT]
+    else:
+        key, origin, nearest = "measured", Origin.HELD_BACK, records[SIMULATION]
+    quantities += _quantities(key, "experiment", nearest, PAPER_EXPERIMENT_MM, origin)
     return Section(
         title="Displacements of the magnets",
         text=_text(records, scenes),
         images=[
             Image(
                 "displacements",
-                "Left: height gained; right: way towards the head. Dashed and dotted: the paper's peak of the middle"
+                "Left: height gained; right: way towards the head. Dashed and dotted: the paper's peak of "
+                "the middle"
                 " and its way forward.",
                 _figure(records),
             )
@@ -60,14 +63,22 @@ def _quantities(
 ) -> list[Quantity]:
     return [
         Quantity(
-            f"{key}.peak", f"Pass: peak of the middle magnet, paper's {source}", "mm", peak_mm(record), origin,
+            f"{key}.peak",
+            f"Pass: peak of the middle magnet, paper's {source}",
+            "mm",
+            peak_mm(record),
+            origin,
             paper=paper["peak"],
         ),
         Quantity(
-            f"{key}.stride", f"Pass: way forward, paper's {source}", "mm", stride_mm(record), origin,
+            f"{key}.stride",
+            f"Pass: way forward, paper's {source}",
+            "mm",
+            stride_mm(record),
+            origin,
             paper=paper["stride"],
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _text(records: dict[str, Recording], scenes: dict[str, Scene]) -> str:
@@ -77,18 +88,22 @@ def _text(records: dict[str, Recording], scenes: dict[str, Scene]) -> str:
         each = ", ".join(number(float(way), 2) for way in gained)
         spread = float(np.ptp(gained))
         paragraphs.append(
-            f"`{family}`: the middle magnet rises by {number(peak_mm(record), 2)} mm; the robot's centre, the mean of "
-            f"its magnets, ends {number(stride_mm(record), 2)} mm ahead. The magnets end {each} mm ahead (head, middle, "
-            f"tail): friction leaves the body {number(spread, 2)} mm shorter or longer than it was."
+            f"`{family}`: the middle magnet rises by {number(peak_mm(record), 2)} mm; the robot's centre, "
+            "the mean of "
+            f"its magnets, ends {number(stride_mm(record), 2)} mm ahead. The magnets end {each} mm ahead "
+            "(head, middle, "
+            f"tail): they differ by {number(spread, 2)} mm, a change of length that friction holds."
         )
     if EXPERIMENT in records:
         paragraphs.append(
-            f"`{EXPERIMENT}` is identified from the paper's experiment. It differs from `{SIMULATION}` in:\n\n"
+            f"`{EXPERIMENT}` is identified from the paper's experiment. It differs from `{SIMULATION}` "
+            "in:\n\n"
             + table(["value", SIMULATION, EXPERIMENT], differing(scenes[SIMULATION], scenes[EXPERIMENT]))
         )
     else:
         paragraphs.append(
-            "There is one preset for three magnets, identified from the paper's simulation; the paper's experiment is "
+            "There is one preset for three magnets, identified from the paper's simulation; the paper's "
+            "experiment is "
             "set beside it without a preset of its own."
         )
     return "\n\n".join(paragraphs)

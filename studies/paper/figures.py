@@ -29,7 +29,7 @@ BY_PLACE = {"head": TEAL, "middle": ORANGE, "tail": BLUE}
 """Magnets of the robot with three."""
 
 DOTS_PER_INCH = 140
-STYLE = {
+STYLE: dict[Any, Any] = {
     "font.size": 9.5,
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -84,18 +84,33 @@ def _quantities(record: Recording) -> list[Quantity]:
     error = 100.0 * MM * mirror_error(record) / lift[-1]
     return [
         Quantity(
-            "lift.final", "Case 1: lift of the middle, drive at −22 mm", "mm", lift[-1], Origin.TARGET,
-            paper=PAPER_LIFT_MM, claim="1/7 of 54 mm",
+            "lift.final",
+            "Case 1: lift of the middle, drive at −22 mm",
+            "mm",
+            lift[-1],
+            Origin.TARGET,
+            paper=PAPER_LIFT_MM,
+            claim="1/7 of 54 mm",
         ),
         Quantity(
-            "lift.mirror", "Case 1: error of the mirror symmetry, of the lift", "%", error,
-            Origin.HELD_BACK, claim="symmetric (read as below 1 %)", holds=(0.0, 1.0),
+            "lift.mirror",
+            "Case 1: error of the mirror symmetry, of the lift",
+            "%",
+            error,
+            Origin.HELD_BACK,
+            claim="symmetric (read as below 1 %)",
+            holds=(0.0, 1.0),
         ),
         Quantity(
-            "lift.slide", "Case 1: each end slides towards the middle by", "mm", inward, Origin.HELD_BACK,
-            claim="slides towards the centre (above 0)", holds=(1e-9, np.inf),
+            "lift.slide",
+            "Case 1: each end slides towards the middle by",
+            "mm",
+            inward,
+            Origin.HELD_BACK,
+            claim="slides towards the centre (above 0)",
+            holds=(1e-9, np.inf),
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _text(record: Recording, equilibrium: Floats, both_ways: Recording) -> str:
@@ -112,11 +127,13 @@ def _text(record: Recording, equilibrium: Floats, both_ways: Recording) -> str:
         f"ends {number(lift[-1], 2)} mm higher{overshoot}; within the last 50 ms it moves by "
         f"{number(drift, 3)} mm. The head end slides by {number(slides[-1, 0], 2)} mm, the tail end by "
         f"{number(slides[-1, 1], 2)} mm. "
-        f"The two halves of the centre line are mirror images within {max(1, 1e9 * mirror_error(record)):.0f} nm. "
+        "The two halves of the centre line are mirror images within "
+        f"{max(1, 1e9 * mirror_error(record)):.0f} nm. "
         f"The paper calls −22 mm suitable because the lift is then about a seventh of the body length; here "
         f"it is 1/{54.0 / lift[-1]:.1f} of it.\n\n"
         f"Of the lift at rest there is no single curve: friction holds the feet. Raised in {RISE_S:g} s and "
-        f"left for {REST_S:g} s, the robot at −22 mm stands at {number(MM * equilibrium[-1], 2)} mm; raised over "
+        f"left for {REST_S:g} s, the robot at −22 mm stands at {number(MM * equilibrium[-1], 2)} mm; raised "
+        "over "
         f"{SLOW_S:g} s at {number(slow[half], 2)} mm. Raised and lowered slowly, the lifts at equal height "
         f"differ by up to {number(apart, 2)} mm."
     )
@@ -149,6 +166,7 @@ def _curves(record: Recording, equilibrium: Floats, both_ways: Recording) -> Any
     left.axvline(RISE_S, color=PAPER, lw=0.6, ls=":")
     left.set_xlabel("time [s]")
     left.set_ylabel("displacement [mm]")
+    left.set_ylim(top=12.0)
     legend_beside(left, "upper left")
     slow, heights = MM * middle_lift(both_ways), MM * both_ways.drive_positions[:, 0, 1]
     half = len(slow) // 2

@@ -41,38 +41,53 @@ def mirror_section() -> Section:
                 quantities.append(_required(count, error))
     quantities.append(
         Quantity(
-            "mirror.worst", "Mirrored pass, 3 and 5 magnets, 50 to 210 mm/s: greatest distance", "µm", 1e6 * worst,
-            Origin.MODEL, claim="0, by symmetry", digits=1,
+            "mirror.worst",
+            "Mirrored pass, 3 and 5 magnets, 50 to 210 mm/s: greatest distance",
+            "µm",
+            1e6 * worst,
+            Origin.MODEL,
+            note="see the end of the page" if worst > TOLERABLE_M else "",
+            digits=1,
         )
-    )  # fmt: skip
+    )
     return Section("Mirror symmetry", _text(rows, worst), [], quantities)
 
 
 def distance_text(error_m: float) -> str:
     """A distance; below a nanometre it is only said that it is: its digits are round-off."""
-    return "below 1 nm" if error_m < 1e-9 else f"{1e6 * error_m:.2g} µm"
+    return "below 1 nm" if error_m < 1e-9 else f"{number(1e6 * error_m, 2 if error_m < 1e-6 else 0)} µm"
 
 
 def _required(count: int, error_m: float) -> Quantity:
     return Quantity(
-        f"mirror.{COUNTS[count]}", f"Mirrored pass, {COUNTS[count]} magnets, 100 mm/s: distance of shapes", "µm",
-        1e6 * error_m, Origin.CLOSED_FORM, claim="0, by symmetry", digits=1,
-    )  # fmt: skip
+        f"mirror.{COUNTS[count]}",
+        f"Mirrored pass, {COUNTS[count]} magnets, 100 mm/s: distance of shapes",
+        "µm",
+        1e6 * error_m,
+        Origin.CLOSED_FORM,
+        claim="0, by symmetry",
+        digits=1,
+    )
 
 
 def _text(rows: list[list[str]], worst_m: float) -> str:
     apart = (
-        f" The greatest, {distance_text(worst_m)}, is beyond that: the contact solve, which goes through the feet from head "
-        "to tail, settles on other modes of contact in one pass than in its mirror image, and the motions part in a single "
-        "step. Both are solutions within the tolerance; stick and slip carry the difference on."
+        f" The greatest, {distance_text(worst_m)}, is more than that. The mirrored motions then agree up to "
+        "one "
+        "solver step and part in it, where a contact changes: an ambiguity of the contact solve, not a "
+        "property of "
+        "the robot."
         if worst_m > TOLERABLE_M
         else ""
     )
     return (
-        "With an odd number of magnets the robot is its own mirror image. A drive that comes from beyond the tail must then "
-        "give the mirrored motion, up to the tolerance of the contact solve and to round-off, as sums are taken from the "
-        "head on. The table gives the greatest distance between the centre line and the mirrored one over the whole pass."
-        f"{apart}\n\n" + table(["magnets", "drive", "stride", "distance"], rows)
+        "With an odd number of magnets the robot is its own mirror image. A drive that comes from beyond the "
+        "tail "
+        "must then give the mirrored motion, up to the tolerance of the contact solve and to round-off, as "
+        "sums are "
+        "taken from the head on. The table gives the greatest distance between the centre line and the "
+        "mirrored one "
+        f"over the whole pass.{apart}\n\n" + table(["magnets", "drive", "stride", "distance"], rows)
     )
 
 

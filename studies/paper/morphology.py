@@ -68,9 +68,12 @@ def morphology_section() -> Section:
         for q in checks
     ]
     text = (
-        "The drive starts 50 mm ahead of the head end and moves at 100 mm/s for 1.5 s. The stages follow the place "
-        "of the drive: I ahead of the first magnet, II and III ahead of and behind the middle one, IV behind the "
-        f"last ({times}). Torques and forces are those of the drive at the recorded poses; anticlockwise is positive "
+        "The drive starts 50 mm ahead of the head end and moves at 100 mm/s for 1.5 s. The stages follow the "
+        "place "
+        "of the drive: I ahead of the first magnet, II and III ahead of and behind the middle one, IV behind "
+        "the "
+        f"last ({times}). Torques and forces are those of the drive at the recorded poses; anticlockwise is "
+        "positive "
         "with the head on the left.\n\n"
         + table(["what", "paper", "model", "agrees"], rows)
         + "\n\n"
@@ -86,9 +89,15 @@ def _summary(checks: list[Quantity]) -> Quantity:
     """How many of the paper's statements hold."""
     kept = sum(check.as_claimed for check in checks)
     return Quantity(
-        "stages.statements", f"Stages: statements of the paper that hold, of {len(checks)}", "", kept,
-        Origin.HELD_BACK, claim=f"all {len(checks)}", holds=(len(checks), len(checks)), digits=0,
-    )  # fmt: skip
+        "stages.statements",
+        f"Stages: statements of the paper that hold, of {len(checks)}",
+        "",
+        kept,
+        Origin.HELD_BACK,
+        claim=f"all {len(checks)}",
+        holds=(len(checks), len(checks)),
+        digits=0,
+    )
 
 
 def _check(key: str, what: str, unit: str, model: float, claim: str, holds: tuple[float, float]) -> Quantity:
@@ -104,18 +113,30 @@ def _stage_one(walk: Pass) -> list[Quantity]:
     top = int(toe.argmax())
     return [
         _check(
-            "front_torque", "I: torque on the first magnet when its foot is highest", "mN·m",
-            1e3 * walk.torque[span, HEAD][top], "clockwise (below 0)", BELOW,
+            "front_torque",
+            "I: torque on the first magnet when its foot is highest",
+            "mN·m",
+            1e3 * walk.torque[span, HEAD][top],
+            "clockwise (below 0)",
+            BELOW,
         ),
         _check(
-            "front_lift", "I: lift of the anterior foot's toe", "mm", MM * toe.max(),
-            "lifted slightly (read as 0.1 to 2 mm)", (0.1, 2.0),
+            "front_lift",
+            "I: lift of the anterior foot's toe",
+            "mm",
+            MM * toe.max(),
+            "lifted slightly (read as 0.1 to 2 mm)",
+            (0.1, 2.0),
         ),
         _check(
-            "front_anchor", "I: vertical force on the first magnet at the end", "N",
-            walk.force[span, HEAD, 1][-1], "anchored by attraction (below 0)", BELOW,
+            "front_anchor",
+            "I: vertical force on the first magnet at the end",
+            "N",
+            walk.force[span, HEAD, 1][-1],
+            "anchored by attraction (below 0)",
+            BELOW,
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _stage_two(walk: Pass) -> list[Quantity]:
@@ -127,18 +148,30 @@ def _stage_two(walk: Pass) -> list[Quantity]:
     torque = 1e3 * walk.torque[span].mean(axis=0)
     return [
         _check(
-            "wave", "II: crest of the wave in the first third, from magnet 2 (0) to magnet 3 (1)", "",
-            place.mean(), "between second and third (0 to 1)", (0.0, 1.0),
+            "wave",
+            "II: crest of the wave in the first third, from magnet 2 (0) to magnet 3 (1)",
+            "",
+            place.mean(),
+            "between second and third (0 to 1)",
+            (0.0, 1.0),
         ),
         _check(
-            "middle_torque", "II: mean torque on the second magnet", "mN·m", torque[MIDDLE],
-            "counterclockwise (above 0)", ABOVE,
+            "middle_torque",
+            "II: mean torque on the second magnet",
+            "mN·m",
+            torque[MIDDLE],
+            "counterclockwise (above 0)",
+            ABOVE,
         ),
         _check(
-            "rear_torque", "II: mean torque on the third magnet", "mN·m", torque[TAIL],
-            "clockwise (below 0)", BELOW,
+            "rear_torque",
+            "II: mean torque on the third magnet",
+            "mN·m",
+            torque[TAIL],
+            "clockwise (below 0)",
+            BELOW,
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _stage_three(walk: Pass) -> list[Quantity]:
@@ -148,18 +181,30 @@ def _stage_three(walk: Pass) -> list[Quantity]:
     over = walk.record.drive_positions[top, 0, 0] - walk.record.magnet_poses[top, MIDDLE, 0]
     return [
         _check(
-            "peak_force", "II/III: vertical force on the middle magnet at the peak", "N",
-            walk.force[top, MIDDLE, 1], "repelled (above 0)", ABOVE,
+            "peak_force",
+            "II/III: vertical force on the middle magnet at the peak",
+            "N",
+            walk.force[top, MIDDLE, 1],
+            "repelled (above 0)",
+            ABOVE,
         ),
         _check(
-            "peak_place", "II/III: drive behind the middle magnet at the peak by", "mm", MM * over,
-            "at the middle magnet (read as within 10 mm)", (-10.0, 10.0),
+            "peak_place",
+            "II/III: drive behind the middle magnet at the peak by",
+            "mm",
+            MM * over,
+            "at the middle magnet (read as within 10 mm)",
+            (-10.0, 10.0),
         ),
         _check(
-            "drawn", "II/III: outer feet drawn towards each other at the peak by", "mm",
-            MM * (apart[0] - apart[top]), "dragged toward the center (above 0)", ABOVE,
+            "drawn",
+            "II/III: outer feet drawn towards each other at the peak by",
+            "mm",
+            MM * (apart[0] - apart[top]),
+            "dragged toward the center (above 0)",
+            ABOVE,
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _stage_four(walk: Pass) -> list[Quantity]:
@@ -169,22 +214,38 @@ def _stage_four(walk: Pass) -> list[Quantity]:
     moved = MM * (record.magnet_poses[top, :, 0] - end)
     return [
         _check(
-            "rear_anchor", "IV: vertical force on the third magnet at the beginning", "N",
-            walk.force[span, TAIL, 1][0], "anchored by attraction (below 0)", BELOW,
+            "rear_anchor",
+            "IV: vertical force on the third magnet at the beginning",
+            "N",
+            walk.force[span, TAIL, 1][0],
+            "anchored by attraction (below 0)",
+            BELOW,
         ),
         _check(
-            "head_push", "III/IV: head moves forward while the robot flattens by", "mm", moved[HEAD],
-            "pushed forward (above 0)", ABOVE,
+            "head_push",
+            "III/IV: head moves forward while the robot flattens by",
+            "mm",
+            moved[HEAD],
+            "pushed forward (above 0)",
+            ABOVE,
         ),
         _check(
-            "rear_slip", "III/IV: tail slides backward meanwhile by", "mm", -moved[TAIL],
-            "does not slide (read as below 0.5 mm)", (-np.inf, 0.5),
+            "rear_slip",
+            "III/IV: tail slides backward meanwhile by",
+            "mm",
+            -moved[TAIL],
+            "does not slide (read as below 0.5 mm)",
+            (-np.inf, 0.5),
         ),
         _check(
-            "rear_lift", "lift of the posterior foot's heel over the pass", "mm",
-            MM * walk.soles[:, TAIL, 1].max(), "lifted slightly (read as 0.1 to 2 mm)", (0.1, 2.0),
+            "rear_lift",
+            "lift of the posterior foot's heel over the pass",
+            "mm",
+            MM * walk.soles[:, TAIL, 1].max(),
+            "lifted slightly (read as 0.1 to 2 mm)",
+            (0.1, 2.0),
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _text(walk: Pass) -> str:
@@ -196,7 +257,8 @@ def _text(walk: Pass) -> str:
         else "at every instant at least one edge of a foot is on the ground"
     )
     return (
-        f"The feet tilt by up to {tilt[HEAD]:.0f}°, {tilt[MIDDLE]:.0f}° and {tilt[TAIL]:.0f}° and stand on their edges "
+        f"The feet tilt by up to {tilt[HEAD]:.0f}°, {tilt[MIDDLE]:.0f}° and {tilt[TAIL]:.0f}° and stand on "
+        "their edges "
         f"while they do, the edge contact that the paper mentions; {flight}."
     )
 

@@ -11,11 +11,12 @@ HEADER = ["quantity", "paper", "model", "error", "origin", "verdict"]
 INTRODUCTION = """# The paper, reproduced
 
 Written by `make paper`; do not edit. Every experiment of *MagWorm* (Soft Robotics, DOI
-[10.1089/soro.2019.0167](https://doi.org/10.1089/soro.2019.0167)) that the planar model can repeat, simulated from the presets. The
-paper's table of parameters is not public: the presets were identified from a few of its figures, marked *identification target*
-below; agreement there shows that the identification worked, not that the model is right. *Held back* are figures that were not used;
-they test the model. *Closed form* tests the program. Where the paper uses words, the reading is given in brackets. Bands of all
-figures, and why, are in `studies/paper/bands.toml`; `make paper` fails where one is left.
+[10.1089/soro.2019.0167](https://doi.org/10.1089/soro.2019.0167)) that the planar model can repeat, simulated
+from the presets. The paper's table of parameters is not public: the presets were identified from a few of its
+figures, marked *identification target* below; agreement there shows that the identification worked, not that
+the model is right. *Held back* are figures that were not used; they test the model. *Closed form* tests the
+program. Where the paper uses words, the way they are read stands in brackets. Bands of all figures, and why,
+are in `studies/paper/bands.toml`; `make paper` fails where one is left.
 """
 
 
@@ -58,7 +59,9 @@ def _summary(quantities: Sequence[Quantity], bands: Mapping[str, Band]) -> str:
     held = [verdict(q, True) for q in quantities if q.origin is Origin.HELD_BACK and q.listed]
     against = sum(words.startswith("**") for words in held)
     return (
-        f"Of {len(targets)} identification targets {sum(targets)} are met; of {len(exact)} exact results {sum(exact)} are. Of "
-        f"{len(held)} figures and statements held back, the model agrees with or comes close to {len(held) - against} and "
+        f"Of {len(targets)} identification targets {sum(targets)} are met; of {len(exact)} exact results "
+        f"{sum(exact)} are. Of "
+        f"{len(held)} figures and statements held back, the model agrees with or comes close to "
+        f"{len(held) - against} and "
         f"disagrees with {against}.\n"
     )

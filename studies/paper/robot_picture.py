@@ -56,12 +56,12 @@ def draw_magnet(axes: Any, pose: Any, size_m: tuple[float, float], polarity: flo
         polarity: Positive for north up at rest.
         share: Opacity.
     """
-    length, height = size_m
+    (x, y, angle), (length, height) = pose, size_m
     upper, lower = (palette.NORTH, palette.SOUTH) if polarity > 0.0 else (palette.SOUTH, palette.NORTH)
     for bottom, top, pole in ((0.0, 0.5 * height, upper), (-0.5 * height, 0.0, lower)):
-        half = MM * rectangle(*pose, length, bottom, top)
+        half = MM * rectangle(x, y, angle, length, bottom, top)
         if polarity != 0.0:
             axes.add_patch(Polygon(half, facecolor=colour(pole), edgecolor="none", alpha=share, zorder=4))
-    whole = MM * rectangle(*pose, length, -0.5 * height, 0.5 * height)
+    whole = MM * rectangle(x, y, angle, length, -0.5 * height, 0.5 * height)
     edge = colour(palette.MAGNET_EDGE if polarity else palette.REMOVED_EDGE)
     axes.add_patch(Polygon(whole, facecolor="none", edgecolor=edge, lw=0.6, alpha=share, zorder=5))

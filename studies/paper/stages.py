@@ -1,5 +1,7 @@
 """The paper's four stages of a pass, by the place of the drive among three magnets."""
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,4 +37,4 @@ def spans(recording: Recording) -> list[slice]:
     edges = np.searchsorted(stage, np.arange(len(NAMES) + 1))
     if (np.diff(edges) == 0).any():
         raise ValueError("the drive does not pass through all four stages")
-    return [slice(int(a), int(b)) for a, b in zip(edges, edges[1:], strict=False)]
+    return [slice(a, b) for a, b in itertools.pairwise(edges.tolist())]

@@ -62,7 +62,7 @@ def measured_curves(family: str) -> dict[str, Curve]:
     rows = [(MM * stride.mean_m, MM * stride.spread_m, stride.carried) for stride in strides]
     table = np.array(rows).reshape(len(robots), len(SPEEDS_MM_S), 3)
     return {
-        name: Curve(*columns.T, MM * scene.body_length_m)
+        name: Curve(columns[:, 0], columns[:, 1], columns[:, 2], MM * scene.body_length_m)
         for (name, (scene, _)), columns in zip(robots.items(), table, strict=True)
     }
 
@@ -73,10 +73,14 @@ def stride_section() -> Section:
     curves = {family: measured_curves(family) for family in families}
     count = PASSES * len(AHEADS_M) * len(FRICTIONS)
     text = (
-        "The paper measured these curves with its robots; its figures are those of an experiment. Drive magnets "
-        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {COUNTS[PASSES]} in a row, from "
-        f"{COUNTS[len(AHEADS_M)]} starts, with static friction changed by −2, 0 and +2 %. Bars are the standard "
-        "deviation. A run in which the drive carries the robot along, by more than 20 mm in a pass, counts up to then. "
+        "The paper measured these curves with its robots; its figures are those of an experiment. Drive "
+        "magnets "
+        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {COUNTS[PASSES]} in a row, "
+        "from "
+        f"{COUNTS[len(AHEADS_M)]} starts, with static friction changed by −2, 0 and +2 %. Bars are the "
+        "standard "
+        "deviation. A run in which the drive carries the robot along, by more than 20 mm in a pass, counts "
+        "up to then. "
         f"Speeds beyond {PLATFORM_MM_S:g} mm/s are out of reach of the paper's platform.\n\n"
     )
     text += "\n\n".join(_text(family, found) for family, found in curves.items())
@@ -102,7 +106,7 @@ def stride_section() -> Section:
 
 
 def crossing_mm_s(three: Curve, five: Curve) -> float:
-    """Lowest speed on the platform from which on five magnets make the longer stride; infinite if there is none."""
+    """Lowest speed on the platform from which on five magnets beat three; infinite if there is none."""
     shown = within(0.0)
     above = five.mean[shown] > three.mean[shown]
     losing = np.flatnonzero(~above)
@@ -133,36 +137,113 @@ def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
         )
 
     return [
-        held("slow", "longest over shortest of 3, 4, 5 below 65 mm/s", "%", slow_spread_percent(curves),
-             claim="nearly equal (read as within 20 %)", holds=(0.0, 20.0), digits=0),
-        held("three_peak", "longest of three magnets", "mm", three.mean[on][top], paper=PAPER_PEAK_MM,
-             spread=float(three.spread[on][top])),
-        held("three_peak_speed", "three are best at", "mm/s", SPEEDS_MM_S[on][top], paper=PEAK_MM_S,
-             spread=GRID_MM_S, digits=0),
-        held("three_change", "three, change from 110 to 210 mm/s", "mm", three.at(210.0) - three.at(110.0),
-             claim="falls (below 0)", holds=falling),
-        held("four_change", "four, change from 110 to 210 mm/s", "mm", four.at(210.0) - four.at(110.0),
-             claim="falls (below 0)", holds=falling),
-        held("five_change", "five, change from 110 to 210 mm/s", "mm", five.at(210.0) - five.at(110.0),
-             claim="rises (above 0)", holds=(1e-9, np.inf)),
-        held("five_fast", "five at 210 mm/s", "mm", five.at(210.0), paper=PAPER_FIVE_MM,
-             spread=float(five.spread[on][-1])),
-        held("lead_slow", "lead of three below 150 mm/s, mean", "mm", lead_slow,
-             claim="three are best (above 0)", holds=(1e-9, np.inf)),
-        held("lead_fast", "lead of five above 150 mm/s, mean", "mm", lead_fast,
-             claim="five are best (above 0)", holds=(1e-9, np.inf)),
-        held("crossing", "five lead three from", "mm/s", crossing_mm_s(three, five), paper=CROSSING_MM_S,
-             spread=GRID_MM_S, digits=0),
-        held("stall", "three at 210 mm/s, of their best", "%", 100.0 * three.at(210.0) / three.mean[on][top],
-             claim="stall (read as below half)", holds=(-np.inf, 50.0), digits=0),
-        held("direction", "four, difference of forward and backward, mean", "mm", ways,
-             claim="different (read as above 0.1 mm)", holds=(0.1, np.inf)),
-    ]  # fmt: skip
+        held(
+            "slow",
+            "longest over shortest of 3, 4, 5 below 65 mm/s",
+            "%",
+            slow_spread_percent(curves),
+            claim="nearly equal (read as within 20 %)",
+            holds=(0.0, 20.0),
+            digits=0,
+        ),
+        held(
+            "three_peak",
+            "longest of three magnets",
+            "mm",
+            three.mean[on][top],
+            paper=PAPER_PEAK_MM,
+            spread=float(three.spread[on][top]),
+        ),
+        held(
+            "three_peak_speed",
+            "three are best at",
+            "mm/s",
+            SPEEDS_MM_S[on][top],
+            paper=PEAK_MM_S,
+            spread=GRID_MM_S,
+            digits=0,
+        ),
+        held(
+            "three_change",
+            "three, change from 110 to 210 mm/s",
+            "mm",
+            three.at(210.0) - three.at(110.0),
+            claim="falls (below 0)",
+            holds=falling,
+        ),
+        held(
+            "four_change",
+            "four, change from 110 to 210 mm/s",
+            "mm",
+            four.at(210.0) - four.at(110.0),
+            claim="falls (below 0)",
+            holds=falling,
+        ),
+        held(
+            "five_change",
+            "five, change from 110 to 210 mm/s",
+            "mm",
+            five.at(210.0) - five.at(110.0),
+            claim="rises (above 0)",
+            holds=(1e-9, np.inf),
+        ),
+        held(
+            "five_fast",
+            "five at 210 mm/s",
+            "mm",
+            five.at(210.0),
+            paper=PAPER_FIVE_MM,
+            spread=float(five.spread[on][-1]),
+        ),
+        held(
+            "lead_slow",
+            "lead of three below 150 mm/s, mean",
+            "mm",
+            lead_slow,
+            claim="three are best (above 0)",
+            holds=(1e-9, np.inf),
+        ),
+        held(
+            "lead_fast",
+            "lead of five above 150 mm/s, mean",
+            "mm",
+            lead_fast,
+            claim="five are best (above 0)",
+            holds=(1e-9, np.inf),
+        ),
+        held(
+            "crossing",
+            "five lead three from",
+            "mm/s",
+            crossing_mm_s(three, five),
+            paper=CROSSING_MM_S,
+            spread=GRID_MM_S,
+            digits=0,
+        ),
+        held(
+            "stall",
+            "three at 210 mm/s, of their best",
+            "%",
+            100.0 * three.at(210.0) / three.mean[on][top],
+            claim="stall (read as below half)",
+            holds=(-np.inf, 50.0),
+            digits=0,
+        ),
+        held(
+            "direction",
+            "four, difference of forward and backward, mean",
+            "mm",
+            ways,
+            claim="different (read as above 0.1 mm)",
+            holds=(0.1, np.inf),
+        ),
+    ]
 
 
 def _text(family: str, curves: Mapping[str, Curve]) -> str:
     orders = [
-        f"{ranking({name: curve.at(speed) for name, curve in curves.items() if name != BACKWARD})} at {speed:g} mm/s"
+        f"{ranking({name: curve.at(speed) for name, curve in curves.items() if name != BACKWARD})} at "
+        f"{speed:g} mm/s"
         for speed in (60.0, 110.0, 160.0, 210.0)
     ]
     lines = [f"- **{name}**: {_course(curve)}" for name, curve in curves.items()]
@@ -177,8 +258,10 @@ def _course(curve: Curve) -> str:
     parts = (within(0.0, SLOW_MM_S), within(SLOW_MM_S, PEAK_MM_S), within(PEAK_MM_S))
     below, between, above = (trend(curve.mean[part], scale) for part in parts)
     sentences = (
-        f"{number(mean[0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, {number(curve.at(210.0), 2)} at "
-        f"210 mm/s; longest {number(float(mean.max()), 2)} mm at {speeds[mean.argmax()]:g} mm/s. It {below} below "
+        f"{number(mean[0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, {number(curve.at(210.0), 2)} "
+        "at "
+        f"210 mm/s; longest {number(float(mean.max()), 2)} mm at {speeds[mean.argmax()]:g} mm/s. It {below} "
+        "below "
         f"65 mm/s, {between} up to 110 mm/s and {above} from there to 210 mm/s."
     )
     if (mean < 0.0).any():
@@ -203,8 +286,17 @@ def _figure(curves: Mapping[str, Curve]) -> Any:
             scale = curve.length if normalised else 1.0
             style = {"ls": "--", "marker": "s", "mfc": "white"} if name == BACKWARD else {"marker": "o"}
             label = f"{name.replace(',', ' magnets,')}" if name == BACKWARD else f"{name} magnets"
-            axis.errorbar(SPEEDS_MM_S, curve.mean / scale, curve.spread / scale, color=shades[name], ms=3.5, lw=1.3,
-                          elinewidth=0.9, label=label, **style)  # fmt: skip
+            axis.errorbar(
+                SPEEDS_MM_S,
+                curve.mean / scale,
+                curve.spread / scale,
+                color=shades[name],
+                ms=3.5,
+                lw=1.3,
+                elinewidth=0.9,
+                label=label,
+                **style,
+            )
         three, five = (curves[name].length if normalised else 1.0 for name in ("three", "five"))
         paper_mark(axis, PEAK_MM_S, PAPER_PEAK_MM / three, "paper, experiment")
         paper_mark(axis, PLATFORM_MM_S, PAPER_FIVE_MM / five, None)
@@ -212,8 +304,14 @@ def _figure(curves: Mapping[str, Curve]) -> Any:
         axis.axhline(0.0, color=PAPER, lw=0.6)
         axis.set_xlim(0.0, SPEEDS_MM_S[-1] + 10.0)
         axis.set_xlabel("speed of the drive [mm/s]")
-        axis.annotate("three", (PEAK_MM_S, PAPER_PEAK_MM / three), (0, -13), textcoords="offset points", fontsize=7.5,
-                      ha="center")  # fmt: skip
+        axis.annotate(
+            "three",
+            (PEAK_MM_S, PAPER_PEAK_MM / three),
+            (0, -13),
+            textcoords="offset points",
+            fontsize=7.5,
+            ha="center",
+        )
         axis.annotate(
             "five", (PLATFORM_MM_S, PAPER_FIVE_MM / five), (7, -3), textcoords="offset points", fontsize=7.5
         )
