@@ -87,9 +87,8 @@ def bouncing_section() -> Section:
         images=[
             Image(
                 "bouncing",
-                "Greatest height in a pass, left: of the robot's lowest edge, right: of the lower edge of "
-                "its first or last"
-                " foot. Shaded: beyond the paper's platform.",
+                "Left: greatest height of the robot's lowest edge in a pass; right: greatest upward speed of its"
+                " centre. Shaded: beyond the paper's platform.",
                 _figure(flights),
             )
         ],

@@ -10,7 +10,7 @@ from magworm_gym import Recording, Scene, record_scenes
 from studies.paper.feet import OFF_GROUND_M, sole_heights
 from studies.paper.figures import panels
 from studies.paper.loads import magnetic_loads
-from studies.paper.quantity import Origin, Quantity, number
+from studies.paper.quantity import Origin, Quantity, model_text, number
 from studies.paper.robot_picture import MM, draw_drive, draw_ground, draw_robot
 from studies.paper.scenes import PASS_S, one_pass, robot
 from studies.paper.section import Image, Section, table
@@ -64,7 +64,7 @@ def morphology_section() -> Section:
         for name, span in zip(NAMES, walk.stages, strict=True)
     )
     rows = [
-        [q.what, q.claim, f"{number(q.model, q.digits)} {q.unit}", "yes" if q.as_claimed else "**no**"]
+        [q.what, q.claim, model_text(q), "yes" if q.as_claimed else "**no**"]
         for q in checks
     ]
     text = (

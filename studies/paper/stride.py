@@ -247,7 +247,9 @@ def _text(family: str, curves: Mapping[str, Curve]) -> str:
         for speed in (60.0, 110.0, 160.0, 210.0)
     ]
     lines = [f"- **{name}**: {_course(curve)}" for name, curve in curves.items()]
-    return f"`{family}`:\n\n" + "\n".join(lines) + f"\n- Order: {listed(orders)}."
+    robots = ", ".join(f"`paper-{count}`" for count in BY_MAGNETS)
+    title = robots if family == SIMULATION else f"`{family}`, and the same with four and five magnets"
+    return f"{title}:\n\n" + "\n".join(lines) + f"\n- Order: {listed(orders)}."
 
 
 def _course(curve: Curve) -> str:
