@@ -9,6 +9,7 @@ Exits with 1 and a sentence for each figure that leaves its band in ``studies/pa
 
 import argparse
 import json
+import math
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -73,12 +74,14 @@ def write_results(sections: Mapping[str, Section], failures: Sequence[str]) -> N
         for name, section in sections.items()
     }
     RUNS.mkdir(parents=True, exist_ok=True)
-    text = json.dumps({"experiments": experiments, "outside": list(failures)}, indent=1)
+    text = json.dumps({"experiments": experiments, "outside": list(failures)}, indent=1, allow_nan=False)
     (RUNS / "results.json").write_text(text + "\n", encoding="utf-8")
 
 
 def _record(quantity: Quantity) -> dict[str, object]:
-    return {**asdict(quantity), "origin": quantity.origin.value}
+    """A quantity as JSON takes it: an open side of a range is null."""
+    holds = quantity.holds and [side if math.isfinite(side) else None for side in quantity.holds]
+    return {**asdict(quantity), "origin": quantity.origin.value, "holds": holds}
 
 
 def main() -> int:

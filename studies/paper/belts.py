@@ -89,8 +89,7 @@ def belts_section() -> Section:
             Image(
                 "belts",
                 "Crawling speed against the speed of the belt. Black lines: the paper's highest speeds, "
-                "which its own"
-                " stride does not reach.",
+                "which its own stride does not reach.",
                 _figure(curves),
             )
         ],

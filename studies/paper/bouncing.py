@@ -87,8 +87,8 @@ def bouncing_section() -> Section:
         images=[
             Image(
                 "bouncing",
-                "Left: greatest height of the robot's lowest edge in a pass; right: greatest upward speed of its"
-                " centre. Shaded: beyond the paper's platform.",
+                "Left: greatest height of the robot's lowest edge in a pass; right: greatest upward speed "
+                "of its centre. Shaded: beyond the paper's platform.",
                 _figure(flights),
             )
         ],
@@ -129,12 +129,11 @@ def _text(flights: dict[int, list[Flight]]) -> str:
         for count, found in flights.items()
     ]
     return (
-        "A foot is off the ground where both its ends are more than 0.05 mm high, the robot where all of "
-        "them "
-        "are. Passing magnets lift single feet at any speed; bouncing is read as flight of the whole robot. "
-        "Impacts are fully inelastic in the model, as in the paper's, so nothing rebounds: a robot flies "
-        "only "
-        "where the magnets throw it.\n\n" + "\n".join(sentences)
+        "A foot is off the ground where both its ends are more than 0.05 mm high, "
+        "the robot where all of them are. Passing magnets lift single feet at any "
+        "speed; bouncing is read as flight of the whole robot. Impacts are fully "
+        "inelastic in the model, as in the paper's, so nothing rebounds: a robot "
+        "flies only where the magnets throw it.\n\n" + "\n".join(sentences)
     )
 
 
@@ -159,8 +158,7 @@ def _flown(found: list[Flight]) -> str:
     )
     return (
         f"{words}. Its centre rises at up to {1e3 * rise.rise_m_s:.0f} mm/s, at {_speed_of(found, rise):g} "
-        "mm/s, "
-        f"enough to throw a free body {number(thrown, 1)} mm high"
+        f"mm/s, enough to throw a free body {number(thrown, 1)} mm high"
     )
 
 

@@ -144,9 +144,8 @@ def cantilever_section() -> Section:
         images=[
             Image(
                 "cantilever",
-                "Left: shapes at φ = 90°; lines: arcs, dots: every third node of the model. Right: angle of "
-                "the tip"
-                " against the direction of the field; lines: closed form, dots: model.",
+                "Left: shapes at φ = 90°; lines: arcs, dots: every third node of the model. Right: angle "
+                "of the tip against the direction of the field; lines: closed form, dots: model.",
                 _figure(runs, angles, exact),
             )
         ],
@@ -172,17 +171,14 @@ def _text(worst: float, off_arc_m: float, weak_deg: Floats) -> str:
     top = int(weak_deg.argmax())
     after = "falls" if top < len(weak_deg) - 1 else "does not fall"
     return (
-        f"The paper does not give the rod of its Figure 4; this one has L = {MM * SOFT_M:g} mm and "
-        f"mBL/EI = {load_factor(FIELDS_T[0]):.2f} at {MM * FIELDS_T[0]:g} mT, "
-        f"{load_factor(FIELDS_T[-1]):.1f} at "
+        f"The paper does not give the rod of its Figure 4; this one has L = {MM * SOFT_M:g} mm and mBL/EI = "
+        f"{load_factor(FIELDS_T[0]):.2f} at {MM * FIELDS_T[0]:g} mT, {load_factor(FIELDS_T[-1]):.1f} at "
         f"{MM * FIELDS_T[-1]:g} mT. Gravity is off, as in the closed form. Over {len(FIELDS_T)} fields and "
         f"{len(DIRECTIONS_DEG)} directions the angle of the tip agrees within {100 * worst:.2g} %, the shape "
-        f"within {1e6 * off_arc_m:.2g} µm of the arc. "
-        f"In the weak field the angle reaches {number(weak_deg[top], 1)}° at φ = {DIRECTIONS_DEG[top]:g}° "
-        f"and {after} "
-        f"beyond it, to {number(weak_deg[-1], 1)}° at φ = {DIRECTIONS_DEG[-1]:g}°: the decline that the "
-        "paper sees at "
-        "3 mT is in the closed form, which for mBL/EI < 1 has only θ = 0 at φ = 180°."
+        f"within {1e6 * off_arc_m:.2g} µm of the arc. In the weak field the angle reaches "
+        f"{number(weak_deg[top], 1)}° at φ = {DIRECTIONS_DEG[top]:g}° and {after} beyond it, to "
+        f"{number(weak_deg[-1], 1)}° at φ = {DIRECTIONS_DEG[-1]:g}°: the decline that the paper sees at 3 mT "
+        "is in the closed form, which for mBL/EI < 1 has only θ = 0 at φ = 180°."
     )
 
 

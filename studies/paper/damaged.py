@@ -82,9 +82,8 @@ def damaged_section() -> Section:
         images=[
             Image(
                 "damaged",
-                "Stride at 100 mm/s with magnets taken out (○), head on top, drive from the head "
-                "(forward) and from the"
-                " tail (backward). Triangles: carried along by the drive.",
+                "Stride at 100 mm/s with magnets taken out (○), head on top, drive from the head (forward) "
+                "and from the tail (backward). Triangles: carried along by the drive.",
                 _figure(robots),
             )
         ],
@@ -152,14 +151,11 @@ def _text(robots: list[Damaged]) -> str:
             f"- {COUNTS[magnets]} magnets, {count} taken out: {len(fit)} of {len(group)} crawl{which}"
         )
     return (
-        "Each robot was driven in both directions at "
-        f"{listed([f'{MM * speed:g}' for speed in SPEEDS_M_S])} mm/s. It counts as crawling where it makes "
-        "more than "
-        f"{MM * CRAWLS_M:g} mm against the motion of the drive in a pass, more than the spread of its "
-        "passes, and is never "
-        "carried along. A foot whose magnet is taken out stays as stiff as before. The paper shows one pair "
-        "without "
-        "saying which, and states three magnets as the minimum.\n\n"
+        f"Each robot was driven in both directions at {listed([f'{MM * speed:g}' for speed in SPEEDS_M_S])} "
+        f"mm/s. It counts as crawling where it makes more than {MM * CRAWLS_M:g} mm against the motion of "
+        "the drive in a pass, more than the spread of its passes, and is never carried along. A foot whose "
+        "magnet is taken out stays as stiff as before. The paper shows one pair without saying which, and "
+        "states three magnets as the minimum.\n\n"
         + "\n".join(sentences)
         + "\n\n"
         + table(["robot, head first", "forward, 100 mm/s", "backward, 100 mm/s", "best", "crawls"], rows)

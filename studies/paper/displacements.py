@@ -39,8 +39,7 @@ def displacements_section() -> Section:
             Image(
                 "displacements",
                 "Left: height gained; right: way towards the head. Dashed and dotted: the paper's peak of "
-                "the middle"
-                " and its way forward.",
+                "the middle and its way forward.",
                 _figure(records),
             )
         ],
@@ -89,10 +88,9 @@ def _text(records: dict[str, Recording], scenes: dict[str, Scene]) -> str:
         spread = float(np.ptp(gained))
         paragraphs.append(
             f"`{family}`: the middle magnet rises by {number(peak_mm(record), 2)} mm; the robot's centre, "
-            "the mean of "
-            f"its magnets, ends {number(stride_mm(record), 2)} mm ahead. The magnets end {each} mm ahead "
-            "(head, middle, "
-            f"tail): they differ by {number(spread, 2)} mm, a change of length that friction holds."
+            f"the mean of its magnets, ends {number(stride_mm(record), 2)} mm ahead. The magnets end {each} "
+            f"mm ahead (head, middle, tail): they differ by {number(spread, 2)} mm, a change of length that "
+            "friction holds."
         )
     if EXPERIMENT in records:
         paragraphs.append(
@@ -103,8 +101,7 @@ def _text(records: dict[str, Recording], scenes: dict[str, Scene]) -> str:
     else:
         paragraphs.append(
             "There is one preset for three magnets, identified from the paper's simulation; the paper's "
-            "experiment is "
-            "set beside it without a preset of its own."
+            "experiment is set beside it without a preset of its own."
         )
     return "\n\n".join(paragraphs)
 

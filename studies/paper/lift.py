@@ -61,8 +61,8 @@ def lift_section() -> Section:
             Image("lift-postures", "Postures while the drive rises and stands.", _postures(case, record)),
             Image(
                 "lift",
-                "Left: lift of the middle magnet and displacement of both ends (positive towards the tail)."
-                " Right: lift at rest against the height of the drive.",
+                "Left: lift of the middle magnet and displacement of both ends (positive towards the "
+                "tail). Right: lift at rest against the height of the drive.",
                 _curves(record, equilibrium, both_ways),
             ),
         ],
@@ -126,16 +126,13 @@ def _text(record: Recording, equilibrium: Floats, both_ways: Recording) -> str:
         f"The drive rises from −52 to −22 mm in {RISE_S:g} s and stands for {HOLD_S:g} s. The middle magnet "
         f"ends {number(lift[-1], 2)} mm higher{overshoot}; within the last 50 ms it moves by "
         f"{number(drift, 3)} mm. The head end slides by {number(slides[-1, 0], 2)} mm, the tail end by "
-        f"{number(slides[-1, 1], 2)} mm. "
-        "The two halves of the centre line are mirror images within "
-        f"{max(1, 1e9 * mirror_error(record)):.0f} nm. "
-        f"The paper calls −22 mm suitable because the lift is then about a seventh of the body length; here "
-        f"it is 1/{54.0 / lift[-1]:.1f} of it.\n\n"
-        f"Of the lift at rest there is no single curve: friction holds the feet. Raised in {RISE_S:g} s and "
-        f"left for {REST_S:g} s, the robot at −22 mm stands at {number(MM * equilibrium[-1], 2)} mm; raised "
-        "over "
-        f"{SLOW_S:g} s at {number(slow[half], 2)} mm. Raised and lowered slowly, the lifts at equal height "
-        f"differ by up to {number(apart, 2)} mm."
+        f"{number(slides[-1, 1], 2)} mm, counted towards the tail. The two halves of the centre line are "
+        f"mirror images within {max(1, 1e9 * mirror_error(record)):.0f} nm. The paper calls −22 mm suitable "
+        f"because the lift is then about a seventh of the body length; here it is 1/{54.0 / lift[-1]:.1f} of "
+        f"it.\n\nOf the lift at rest there is no single curve: friction holds the feet. Raised in {RISE_S:g} "
+        f"s and left for {REST_S:g} s, the robot at −22 mm stands at {number(MM * equilibrium[-1], 2)} mm; "
+        f"raised over {SLOW_S:g} s at {number(slow[half], 2)} mm. Raised and lowered slowly, the lifts at "
+        f"equal height differ by up to {number(apart, 2)} mm."
     )
 
 

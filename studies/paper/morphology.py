@@ -63,18 +63,12 @@ def morphology_section() -> Section:
         f"{name} until {number(float(walk.record.time_s[span.stop - 1]), 2)} s"
         for name, span in zip(NAMES, walk.stages, strict=True)
     )
-    rows = [
-        [q.what, q.claim, model_text(q), "yes" if q.as_claimed else "**no**"]
-        for q in checks
-    ]
+    rows = [[q.what, q.claim, model_text(q), "yes" if q.as_claimed else "**no**"] for q in checks]
     text = (
-        "The drive starts 50 mm ahead of the head end and moves at 100 mm/s for 1.5 s. The stages follow the "
-        "place "
-        "of the drive: I ahead of the first magnet, II and III ahead of and behind the middle one, IV behind "
-        "the "
-        f"last ({times}). Torques and forces are those of the drive at the recorded poses; anticlockwise is "
-        "positive "
-        "with the head on the left.\n\n"
+        "The drive starts 50 mm ahead of the head end and moves at 100 mm/s for 1.5 s. The stages follow "
+        "the place of the drive: I ahead of the first magnet, II and III ahead of and behind the middle "
+        f"one, IV behind the last ({times}). Torques and forces are those of the drive at the recorded "
+        "poses; anticlockwise is positive with the head on the left.\n\n"
         + table(["what", "paper", "model", "agrees"], rows)
         + "\n\n"
         + _text(walk)
@@ -97,6 +91,7 @@ def _summary(checks: list[Quantity]) -> Quantity:
         claim=f"all {len(checks)}",
         holds=(len(checks), len(checks)),
         digits=0,
+        note="which, see its section" if kept < len(checks) else "",
     )
 
 
@@ -258,8 +253,7 @@ def _text(walk: Pass) -> str:
     )
     return (
         f"The feet tilt by up to {tilt[HEAD]:.0f}°, {tilt[MIDDLE]:.0f}° and {tilt[TAIL]:.0f}° and stand on "
-        "their edges "
-        f"while they do, the edge contact that the paper mentions; {flight}."
+        f"their edges while they do, the edge contact that the paper mentions; {flight}."
     )
 
 

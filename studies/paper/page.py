@@ -60,8 +60,6 @@ def _summary(quantities: Sequence[Quantity], bands: Mapping[str, Band]) -> str:
     against = sum(words.startswith("**") for words in held)
     return (
         f"Of {len(targets)} identification targets {sum(targets)} are met; of {len(exact)} exact results "
-        f"{sum(exact)} are. Of "
-        f"{len(held)} figures and statements held back, the model agrees with or comes close to "
-        f"{len(held) - against} and "
-        f"disagrees with {against}.\n"
+        f"{sum(exact)} are. Of {len(held)} figures and statements held back, the model agrees with or comes "
+        f"close to {len(held) - against} and disagrees with {against}.\n"
     )

@@ -74,22 +74,19 @@ def stride_section() -> Section:
     count = PASSES * len(AHEADS_M) * len(FRICTIONS)
     text = (
         "The paper measured these curves with its robots; its figures are those of an experiment. Drive "
-        "magnets "
-        f"300 mm apart pass one by one; a stride is the mean of {count} passes: {COUNTS[PASSES]} in a row, "
-        "from "
-        f"{COUNTS[len(AHEADS_M)]} starts, with static friction changed by −2, 0 and +2 %. Bars are the "
-        "standard "
-        "deviation. A run in which the drive carries the robot along, by more than 20 mm in a pass, counts "
-        "up to then. "
-        f"Speeds beyond {PLATFORM_MM_S:g} mm/s are out of reach of the paper's platform.\n\n"
+        f"magnets 300 mm apart pass one by one; a stride is the mean of {count} passes: {COUNTS[PASSES]} in "
+        f"a row, from {COUNTS[len(AHEADS_M)]} starts, with static friction changed by −2, 0 and +2 %. Bars "
+        "are the standard deviation. A run in which the drive carries the robot along, by more than 20 mm "
+        f"in a pass, counts up to then. Speeds beyond {PLATFORM_MM_S:g} mm/s are out of reach of the paper's "
+        "platform.\n\n"
     )
     text += "\n\n".join(_text(family, found) for family, found in curves.items())
     quantities = [q for family, found in curves.items() for q in _quantities(family, found)]
     images = [
         Image(
             "stride" if family == SIMULATION else "stride-experiment",
-            f"Stride and stride over body length against the speed of the drive, parameters of `{family}`."
-            " Diamonds: the paper's numbers; shaded: beyond its platform.",
+            f"Stride and stride over body length against the speed of the drive, parameters of `{family}`. "
+            "Diamonds: the paper's numbers; shaded: beyond its platform.",
             _figure(found),
         )
         for family, found in curves.items()
@@ -261,10 +258,8 @@ def _course(curve: Curve) -> str:
     below, between, above = (trend(curve.mean[part], scale) for part in parts)
     sentences = (
         f"{number(mean[0], 2)} mm at 20, {number(curve.at(110.0), 2)} at 110, {number(curve.at(210.0), 2)} "
-        "at "
-        f"210 mm/s; longest {number(float(mean.max()), 2)} mm at {speeds[mean.argmax()]:g} mm/s. It {below} "
-        "below "
-        f"65 mm/s, {between} up to 110 mm/s and {above} from there to 210 mm/s."
+        f"at 210 mm/s; longest {number(float(mean.max()), 2)} mm at {speeds[mean.argmax()]:g} mm/s. It "
+        f"{below} below 65 mm/s, {between} up to 110 mm/s and {above} from there to 210 mm/s."
     )
     if (mean < 0.0).any():
         backward = listed([f"{speed:g}" for speed in speeds[mean < 0.0]])
