@@ -1,5 +1,6 @@
 """One look for all figures of the page."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,7 @@ import matplotlib as mpl
 mpl.use("Agg")
 
 from matplotlib import pyplot as plt
+from PIL import Image
 
 from magworm_gym.render import palette
 
@@ -29,6 +31,7 @@ BY_PLACE = {"head": TEAL, "middle": ORANGE, "tail": BLUE}
 """Magnets of the robot with three."""
 
 DOTS_PER_INCH = 140
+SHADES = 128
 STYLE: dict[Any, Any] = {
     "font.size": 9.5,
     "axes.spines.top": False,
@@ -83,7 +86,10 @@ def paper_mark(axes: Any, x: float, y: float, label: str | None) -> None:
 
 
 def save(figure: Any, path: Path) -> None:
-    """Writes a figure; equal figures give equal files."""
+    """Writes a figure as a small file, in a palette of its own; equal figures give equal files."""
+    drawn = BytesIO()
     with mpl.rc_context(STYLE):
-        figure.savefig(path, dpi=DOTS_PER_INCH, format="png", metadata={"Software": None})
+        figure.savefig(drawn, dpi=DOTS_PER_INCH, format="png")
     plt.close(figure)
+    picture = Image.open(drawn).convert("RGB").quantize(SHADES, dither=Image.Dither.NONE)
+    picture.save(path, optimize=True)
