@@ -1,0 +1,91 @@
+"""What fits about as well as the best: the set of candidates below a threshold of the loss."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification.search import Losses, Progress
+from magworm_gym.identification.settings import SearchSettings
+
+Floats = NDArray[np.float64]
+
+ROUND = 64
+CHI_SQUARE_95 = 3.84
+"""95 % quantile of chi-square with one degree of freedom [1]."""
+
+FIRST_SPREAD = 0.02
+"""Least standard deviation of steps along the axes, as a part of the bounds [1]."""
+
+
+def threshold(best: float, measurements: float, parameters: int) -> float:
+    """Loss up to which a candidate fits about as well as the best.
+
+    best + 3.84 max(1, best / (n − p)): the interval of each parameter is then its likelihood interval of
+    95 %, with the noise taken from the misfit where that is greater than the tolerances.
+
+    Args:
+        best: Least loss [1].
+        measurements: Number of independent measurements n [1].
+        parameters: Number of parameters p.
+    """
+    return best + CHI_SQUARE_95 * max(1.0, best / max(measurements - parameters, 1.0))
+
+
+def explore(
+    losses: Losses,
+    units: Floats,
+    known: Floats,
+    measurements: float,
+    settings: SearchSettings,
+    progress: Progress | None = None,
+) -> tuple[Floats, Floats]:
+    """Wanders through the set of candidates that fit about as well as the best, to find its ends.
+
+    A third of the steps go along the difference of two members, which follows narrow valleys, a third
+    along one axis, and a third along one axis to anywhere within the bounds.
+
+    Args:
+        losses: Gives the losses (C,) of points of the unit cube (C, P).
+        units: Candidates of the search (C, P).
+        known: Their losses (C,).
+        measurements: Number of independent measurements [1].
+        settings: Settings.
+        progress: Told after each round.
+
+    Returns:
+        All candidates, old and new, and their losses.
+    """
+    generator = np.random.default_rng([settings.seed, 2])
+    for done in range(settings.rounds):
+        members = units[known <= threshold(float(known.min()), measurements, units.shape[1])]
+        proposed = _proposals(members, generator)
+        units, known = np.vstack([units, proposed]), np.append(known, losses(proposed))
+        if progress is not None:
+            progress("explore", done + 1, settings.rounds, float(known.min()))
+    return units, known
+
+
+def _proposals(members: Floats, generator: np.random.Generator) -> Floats:
+    """New points of the cube (ROUND, P) around members of the set (K, P)."""
+    count, dimension = members.shape
+    rows = np.arange(ROUND)
+    start = _outer_members(members, generator)
+    valley, axis, anywhere = (rows % 3 == kind for kind in range(3))
+    pairs = generator.integers(count, size=(2, ROUND))
+    stretch = generator.uniform(0.3, 2.0, (ROUND, 1)) * generator.choice([-1.0, 1.0], (ROUND, 1))
+    along = start + stretch * (members[pairs[0]] - members[pairs[1]])
+    along += generator.normal(0.0, 1e-3, (ROUND, dimension))
+    chosen = generator.integers(dimension, size=ROUND)
+    spread = np.maximum(np.ptp(members, axis=0), FIRST_SPREAD)
+    moved, thrown = start.copy(), start.copy()
+    moved[rows, chosen] += generator.normal(0.0, 1.0, ROUND) * spread[chosen]
+    thrown[rows, chosen] = generator.random(ROUND)
+    proposed = np.select([valley[:, None], axis[:, None], anywhere[:, None]], [along, moved, thrown])
+    return np.clip(proposed, 0.0, 1.0)
+
+
+def _outer_members(members: Floats, generator: np.random.Generator) -> Floats:
+    """Members to start from (ROUND, P): every other one lies at an end of the set along an axis."""
+    start = members[generator.integers(len(members), size=ROUND)]
+    ends = np.concatenate([members.argmin(axis=0), members.argmax(axis=0)])
+    start[::2] = members[generator.choice(ends, size=len(start[::2]))]
+    return start

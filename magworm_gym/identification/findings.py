@@ -1,0 +1,163 @@
+"""What the search says about each parameter, in numbers and in words."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification.identifiability import RUGGED, Sensitivity
+from magworm_gym.identification.parameters import Parameter, ParameterSpace
+from magworm_gym.identification.search import Evolution
+
+Floats = NDArray[np.float64]
+
+OPEN = 0.5
+"""Part of the bounds that fits as well from which on a parameter counts as not identifiable [1]."""
+
+LOOSE = 0.2
+"""Part of the bounds that fits as well from which on a parameter counts as weakly identified [1]."""
+
+AT_BOUND = 0.01
+"""Distance from a bound that counts as on it, as a part of the bounds [1]."""
+
+TIED = 0.7
+"""Correlation, among what fits as well, from which on parameters count as tied to each other [1]."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One parameter.
+
+    Attributes:
+        parameter: The parameter.
+        best: Its best value, in the field's unit, or as a ratio.
+        field_value: The field's value; the same unless it is a ratio.
+        restarts: Best value of each evolution that fits about as well as the best.
+        fits_from: Least value that fits about as well.
+        fits_to: Greatest value that fits about as well.
+        part: That range as a part of the bounds [1].
+        deviation: Standard deviation from the Jacobian, as a part of the bounds [1].
+        alone: The same with all other parameters known [1].
+        disagreement: Relative difference of the derivatives at two steps [1].
+        bound: ``"lower"`` or ``"upper"`` where it lies on a bound, or empty.
+        tied: Labels of the parameters that have to follow when it changes.
+    """
+
+    parameter: Parameter
+    best: float
+    field_value: float
+    restarts: Floats
+    fits_from: float
+    fits_to: float
+    part: float
+    deviation: float
+    alone: float
+    disagreement: float
+    bound: str
+    tied: tuple[str, ...]
+
+    @property
+    def verdict(self) -> str:
+        """``"identified"``, ``"weakly identified"`` or ``"not identifiable"``."""
+        return "not identifiable" if self.part >= OPEN else "weakly identified" if self.part >= LOOSE else "identified"
+
+    @property
+    def half_range(self) -> float:
+        """Half the range of what fits about as well, in the unit of ``best``."""
+        return (self.fits_to - self.fits_from) / 2.0
+
+    def sentences(self) -> list[str]:
+        """What there is to say about it."""
+        follow = f", if {' and '.join(self.tied)} follow{'s' if len(self.tied) == 1 else ''}" if self.tied else ""
+        span = f"{self.fits_from:.4g} to {self.fits_to:.4g}"
+        said = {
+            "not identifiable": f"not identifiable from these data: any value from {span} fits as well{follow}",
+            "weakly identified": f"weakly identified: values from {span} fit as well{follow}",
+            "identified": f"identified: {span} fits as well{follow}",
+        }[self.verdict]
+        more = []
+        if self.bound:
+            more.append(
+                f"lies on its {self.bound} bound: the data want it beyond, or it makes up for what the model lacks"
+            )
+        if self.disagreement > RUGGED:
+            more.append("rugged: its derivatives at two steps disagree, so trust the range rather than them")
+        elif np.isnan(self.disagreement):
+            more.append("a neighbour of the best value cannot be simulated, so its derivatives are missing")
+        return [said, *more]
+
+
+def findings(
+    space: ParameterSpace,
+    best: Floats,
+    evolutions: list[Evolution],
+    fitting: Floats,
+    limit: float,
+    sensed: Sensitivity,
+) -> list[Finding]:
+    """Puts together what is known of each parameter.
+
+    Args:
+        space: The parameters.
+        best: The best point of the cube (P,).
+        evolutions: The evolutions.
+        fitting: Points that fit about as well as the best (K, P), the best among them.
+        limit: Loss up to which a candidate fits about as well [1].
+        sensed: Derivatives at the best point.
+    """
+    values = space.scene_values(best)
+    ended = [evolution.best for evolution in evolutions if evolution.loss <= limit] or [best]
+    low, high = fitting.min(axis=0), fitting.max(axis=0)
+    found = []
+    for at, parameter in enumerate(space.parameters):
+        found.append(
+            Finding(
+                parameter=parameter,
+                best=parameter.value(float(best[at])),
+                field_value=values[parameter.path],
+                restarts=np.array([parameter.value(float(unit[at])) for unit in ended]),
+                fits_from=parameter.value(float(low[at])),
+                fits_to=parameter.value(float(high[at])),
+                part=float(high[at] - low[at]),
+                deviation=float(sensed.deviations[at]),
+                alone=float(sensed.alone[at]),
+                disagreement=float(sensed.disagreement[at]),
+                bound="lower" if best[at] < AT_BOUND else "upper" if best[at] > 1.0 - AT_BOUND else "",
+                tied=_tied(space, fitting, at) if high[at] - low[at] >= LOOSE else (),
+            )
+        )
+    return found
+
+
+def _tied(space: ParameterSpace, fitting: Floats, at: int) -> tuple[str, ...]:
+    """Labels of the parameters that change with one among what fits as well."""
+    if len(fitting) < 3 * len(space):
+        return ()
+    moving = np.ptp(fitting, axis=0) > LOOSE
+    with np.errstate(invalid="ignore", divide="ignore"):
+        correlation = np.nan_to_num(np.corrcoef(fitting, rowvar=False).reshape(len(space), -1))
+    return tuple(
+        other.label
+        for index, other in enumerate(space.parameters)
+        if index != at and moving[index] and abs(correlation[at, index]) > TIED
+    )
+
+
+def direction_in_words(space: ParameterSpace, direction: Floats, singular_value: float) -> str:
+    """A combination of parameters that the data do not pin down.
+
+    Args:
+        space: The parameters.
+        direction: Its shares (P,) [1].
+        singular_value: Its influence [tolerances per range].
+    """
+    order = np.argsort(-np.abs(direction))
+    shares = [
+        f"{space.parameters[at].label} by {direction[at]:+.2f}" for at in order if abs(direction[at]) > 0.15
+    ]
+    joined = " and ".join(shares) if len(shares) < 3 else f"{', '.join(shares[:-1])} and {shares[-1]}"
+    together = ", at once," if len(shares) > 1 else ""
+    return (
+        f"changing {joined} of the bounds{together} changes the residuals by only "
+        f"{singular_value:.2g} standard deviations"
+    )

@@ -1,0 +1,148 @@
+"""From a problem to fitted parameters and what is known of them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Scene
+from magworm_gym.identification.evaluation import Evaluator
+from magworm_gym.identification.exploration import explore, threshold
+from magworm_gym.identification.findings import Finding, findings
+from magworm_gym.identification.identifiability import Sensitivity, sensitivity
+from magworm_gym.identification.ledger import Ledger
+from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.identification.problem import Problem, scene_numbers
+from magworm_gym.identification.search import Evolution, Progress, search
+from magworm_gym.identification.targets import Outcome
+
+Floats = NDArray[np.float64]
+
+CANDIDATES = "candidates.npz"
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What was found.
+
+    Attributes:
+        problem: The problem.
+        unit: The best point of the unit cube (P,).
+        values: Path of each fitted field → its best value, in the field's unit.
+        loss: Least loss [1].
+        limit: Loss up to which a candidate fits about as well [1].
+        candidates: Number of candidates that were simulated.
+        outcomes: How well each target is met.
+        findings: What is known of each parameter.
+        evolutions: The evolutions, best first.
+        sensitivity: Derivatives at the best point.
+        scene: The base scene with the fitted values.
+        left_out: Fitted paths that the base scene does not have, such as those of an experiment's drive.
+    """
+
+    problem: Problem
+    unit: Floats
+    values: dict[str, float]
+    loss: float
+    limit: float
+    candidates: int
+    outcomes: list[Outcome]
+    findings: list[Finding]
+    evolutions: list[Evolution]
+    sensitivity: Sensitivity
+    scene: Scene
+    left_out: tuple[str, ...]
+
+    @property
+    def noise(self) -> float:
+        """Standard deviation of a residual: 1 where the misfit is within the tolerances [1]."""
+        return _noise(self.problem, self.loss)
+
+
+def identify(
+    problem: Problem,
+    out: Path | None = None,
+    *,
+    resume: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Identification:
+    """Fits the parameters of a problem and finds out which of them the data pin down.
+
+    The result is a function of the problem alone: threads and interruptions do not change it.
+
+    Args:
+        problem: The problem.
+        out: Folder for the candidates, so that a search that was stopped can go on; None keeps none.
+        resume: Whether to go on with what is in the folder.
+        threads: None for all cores.
+        progress: Told after each batch of candidates.
+
+    Raises:
+        ImportError: The library cmaes is missing; the sentence names the extra to install.
+        ProblemError: Nothing within the bounds can be simulated, or the folder does not fit.
+    """
+    evaluator = Evaluator(problem, threads)
+    path = None if out is None else _open_folder(out, resume) / CANDIDATES
+    ledger = Ledger(path, evaluator.losses, len(problem.space), problem.fingerprint)
+    if resume and path is not None and path.exists():
+        ledger.load()
+    try:
+        evolutions = search(ledger.losses, evaluator.base_unit, problem.settings, progress)
+    except ProblemError as error:
+        raise ProblemError(f"{error}; the base scene says: {evaluator.refusal(evaluator.base_unit)}") from error
+    units, known = explore(
+        ledger.losses, ledger.units, ledger.known, problem.measurements, problem.settings, progress
+    )
+    return _identification(problem, evaluator, evolutions, units, known)
+
+
+def _identification(
+    problem: Problem, evaluator: Evaluator, evolutions: list[Evolution], units: Floats, known: Floats
+) -> Identification:
+    best, loss = units[int(known.argmin())], float(known.min())
+    limit = threshold(loss, problem.measurements, len(problem.space))
+    sensed = sensitivity(evaluator.verdicts, best, _noise(problem, loss))
+    values = problem.space.scene_values(best)
+    scene, left_out = _fitted_scene(problem.base, values)
+    return Identification(
+        problem=problem,
+        unit=best,
+        values=values,
+        loss=loss,
+        limit=limit,
+        candidates=len(known),
+        outcomes=evaluator.outcomes(best),
+        findings=findings(problem.space, best, evolutions, units[known <= limit], limit, sensed),
+        evolutions=evolutions,
+        sensitivity=sensed,
+        scene=scene,
+        left_out=left_out,
+    )
+
+
+def _noise(problem: Problem, loss: float) -> float:
+    free = max(problem.measurements - len(problem.space), 1.0)
+    return float(np.sqrt(max(1.0, loss / free)))
+
+
+def _open_folder(out: Path, resume: bool) -> Path:
+    """Makes a folder that is new or empty; with resume, an old one will do."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        taken = any(out.iterdir())
+    except OSError as error:
+        raise ProblemError(f"out is {str(out)!r}: {error.strerror}; allowed: a folder that can be made") from error
+    if taken and not resume:
+        raise ProblemError(
+            f"out is {str(out)!r}, which is not empty; allowed: a new folder, or --resume to go on there"
+        )
+    return out
+
+
+def _fitted_scene(base: Scene, values: dict[str, float]) -> tuple[Scene, tuple[str, ...]]:
+    """The base with all values that it has a field for, and the paths of the others."""
+    has = scene_numbers(base)
+    fitting = {path: value for path, value in values.items() if path in has}
+    return base.with_values(fitting), tuple(path for path in values if path not in has)

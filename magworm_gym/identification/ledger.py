@@ -1,0 +1,93 @@
+"""All candidates with their losses, kept on disk, so that a search can go on."""
+
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification.atomic import replace_file
+from magworm_gym.identification.mistake import ProblemError
+
+Floats = NDArray[np.float64]
+
+SAME = 1e-6
+"""Distance in the unit cube up to which a candidate is the one that was kept [1]."""
+
+
+class Ledger:
+    """Asks for losses and remembers them.
+
+    A search is a function of its seed and of losses alone. So to go on, it runs again from the
+    beginning and the losses that are kept answer it at once; no state of an optimiser is stored.
+
+    Args:
+        path: The file, numpy's npz, written anew after each question; None keeps nothing.
+        losses: Gives the losses (C,) of points of the unit cube (C, P).
+        dimension: Number of parameters P.
+        fingerprint: Of the problem that the losses belong to.
+    """
+
+    def __init__(
+        self, path: Path | None, losses: Callable[[Floats], Floats], dimension: int, fingerprint: str
+    ) -> None:
+        self._path, self._ask, self._fingerprint = path, losses, fingerprint
+        self._units, self._losses = np.empty((0, dimension)), np.empty(0)
+        self._used = 0
+
+    def load(self) -> int:
+        """Reads what was kept, and returns the number of candidates.
+
+        Raises:
+            ProblemError: It is of another problem or cannot be read.
+        """
+        assert self._path is not None
+        try:
+            with np.load(self._path) as kept:
+                fingerprint = str(kept["fingerprint"])
+                units, losses = kept["units"], kept["losses"]
+        except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+            raise ProblemError(f"{self._path} cannot be read; allowed: the file of a run that was stopped") from error
+        if fingerprint != self._fingerprint:
+            raise ProblemError(
+                f"{self._path} belongs to another problem, other settings or another version; "
+                "allowed with --resume: exactly what the run was started with"
+            )
+        self._units, self._losses = units, losses
+        return len(losses)
+
+    @property
+    def units(self) -> Floats:
+        """Points of the cube so far (C, P)."""
+        return self._units[: self._used]
+
+    @property
+    def known(self) -> Floats:
+        """Their losses (C,) [1]."""
+        return self._losses[: self._used]
+
+    def losses(self, units: Floats) -> Floats:
+        """Losses (C,) of points of the unit cube (C, P); kept before it returns.
+
+        Raises:
+            ProblemError: What was kept does not fit, so it was made by another version.
+        """
+        end = self._used + len(units)
+        if len(self._losses) < end:
+            losses = self._ask(units)
+            self._units = np.concatenate([self._units[: self._used], units])
+            self._losses = np.concatenate([self._losses[: self._used], losses])
+            if self._path is not None:
+                self._save(self._path)
+        elif np.abs(self._units[self._used : end] - units).max(initial=0.0) > SAME:
+            raise ProblemError(
+                f"{self._path} holds other candidates than this search makes, so libraries or machine "
+                "differ; allowed: what the run was started with, or a new folder"
+            )
+        self._used = end
+        return self._losses[end - len(units) : end]
+
+    def _save(self, path: Path) -> None:
+        with replace_file(path) as part, part.open("wb") as file:
+            np.savez(file, units=self._units, losses=self._losses, fingerprint=np.array(self._fingerprint))

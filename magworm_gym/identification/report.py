@@ -1,0 +1,249 @@
+"""What was identified, as Markdown, as JSON and as a scene."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from magworm_gym import __version__
+from magworm_gym.identification.atomic import write_text
+from magworm_gym.identification.findings import Finding, direction_in_words
+from magworm_gym.identification.identifiability import STEPS
+from magworm_gym.identification.identify import Identification
+from magworm_gym.identification.scene_file import commented_scene
+
+MISFIT = 1.5
+"""Standard deviation of a residual beyond which the report says that the model does not fit [1]."""
+
+
+def write_results(found: Identification, out: Path) -> None:
+    """Writes ``scene.toml``, ``report.md`` and ``report.json`` into a folder."""
+    write_text(out / "scene.toml", fitted_scene_toml(found))
+    write_text(out / "report.json", json.dumps(as_json(found), indent=1, allow_nan=False) + "\n")
+    write_text(out / "report.md", as_markdown(found))
+
+
+def fitted_scene_toml(found: Identification) -> str:
+    """The fitted scene with the origin of each value."""
+    problem = found.problem
+    origins = {path: "set in the problem" for path in problem.fixed}
+    for finding in found.findings:
+        origins[finding.parameter.path] = _origin(finding)
+    head = [f"The scene {problem.base_name} with {len(found.findings)} identified values."]
+    head += [
+        f"Identified too, but no field of this scene: {path} = {found.values[path]:.6g}" for path in found.left_out
+    ]
+    return commented_scene(found.scene, origins, f"as in {problem.base_name}", head)
+
+
+def _origin(finding: Finding) -> str:
+    ratio = "" if finding.parameter.times is None else f" as {finding.best:.4g} times {finding.parameter.times}"
+    if finding.verdict == "not identifiable":
+        return f"not identifiable{ratio}: {finding.fits_from:.4g} to {finding.fits_to:.4g} fits as well"
+    return f"identified{ratio}: ±{finding.half_range:.2g}"
+
+
+def as_markdown(found: Identification) -> str:
+    """The report for people."""
+    return "\n".join(
+        [
+            "# Identification",
+            "",
+            *_summary(found),
+            "",
+            "## Parameters",
+            "",
+            *_parameter_table(found),
+            "",
+            *[
+                f"- `{finding.parameter.label}`: {'; '.join(finding.sentences())}."
+                for finding in found.findings
+            ],
+            "",
+            "The range is that of all candidates that fit about as well as the best: loss up to "
+            f"{found.limit:.4g}. ± is half of it. A standard deviation is that of the linearised model, in parts of "
+            "the bounds: alone with all other parameters known, joint with none of them known.",
+            "",
+            "## Targets",
+            "",
+            *_target_table(found),
+            "",
+            "## Combinations",
+            "",
+            *_combinations(found),
+            "",
+            "## Restarts",
+            "",
+            *_restart_table(found),
+            "",
+        ]
+    )
+
+
+def _summary(found: Identification) -> list[str]:
+    problem = found.problem
+    said = [
+        f"Base: `{problem.base_name}`. {len(problem.space)} parameters, {len(problem.experiments)} experiments, "
+        f"{problem.measurements:.0f} independent measurements; {found.candidates} candidates, "
+        f"{found.candidates * problem.simulated_s:.0f} s simulated. "
+        f"Loss {found.loss:.4g}; magworm-gym {__version__}, seed {problem.settings.seed}.",
+    ]
+    for verdict in ("not identifiable", "weakly identified"):
+        labels = [f"`{f.parameter.label}`" for f in found.findings if f.verdict == verdict]
+        if labels:
+            said += ["", f"**{verdict.capitalize()} from these data: {', '.join(labels)}.**"]
+    if len(problem.space) > problem.measurements:
+        said += ["", "**There are more parameters than measurements.**"]
+    if found.noise > MISFIT:
+        said += [
+            "",
+            f"**The model misses the data by {found.noise:.1f} times the tolerances** (root of loss over degrees "
+            "of freedom); ranges are widened by that. Either the tolerances are too strict, or the model lacks "
+            "something, or a bound keeps it from the data.",
+        ]
+    return said
+
+
+def _parameter_table(found: Identification) -> list[str]:
+    rows = [
+        "| parameter | best | ± | fits as well | part of bounds | restarts: least, greatest, std | bounds "
+        "| std alone, joint |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for f in found.findings:
+        parameter, restarts = f.parameter, f.restarts
+        field = "" if parameter.times is None else f" (field: {f.field_value:.5g})"
+        rows.append(
+            f"| `{parameter.label}` | {f.best:.5g}{field} | {f.half_range:.2g} | {f.fits_from:.5g} to "
+            f"{f.fits_to:.5g} | {100.0 * f.part:.1f} % | {restarts.min():.5g}, {restarts.max():.5g}, "
+            f"{restarts.std():.2g} ({len(restarts)} of {len(found.evolutions)}) | {parameter.low:g} to "
+            f"{parameter.high:g}{', log' if parameter.logarithmic else ''} | {_part(f.alone)}, {_part(f.deviation)} |"
+        )
+    return rows
+
+
+def _part(value: float) -> str:
+    return f"{value:.2g}" if value < 10.0 else "over 10"
+
+
+def _target_table(found: Identification) -> list[str]:
+    rows = [
+        "| target | wanted | model | error | in tolerances | share of loss |",
+        "|---|---|---|---|---|---|",
+    ]
+    for outcome in found.outcomes:
+        percent = "–" if outcome.error_percent is None else f"{outcome.error_percent:+.2f} %"
+        rows.append(
+            f"| {outcome.name} | {outcome.target} | {outcome.model:.5g} | {percent} | "
+            f"{outcome.error_tolerances:+.2f} | {outcome.loss:.3g} |"
+        )
+    remarks = [f"{outcome.name.split(',')[0]}: {outcome.remark}." for outcome in found.outcomes if outcome.remark]
+    return rows + ([""] + remarks if remarks else [])
+
+
+def _combinations(found: Identification) -> list[str]:
+    sensed, space = found.sensitivity, found.problem.space
+    weak = [
+        f"- Not pinned down: {direction_in_words(space, sensed.directions[at], sensed.singular_values[at])}."
+        for at in sensed.weak_directions
+    ]
+    values = ", ".join(f"{value:.3g}" for value in sensed.singular_values)
+    disagreement = ", ".join(
+        f"`{f.parameter.label}` {100.0 * f.disagreement:.0f} %" if np.isfinite(f.disagreement) else
+        f"`{f.parameter.label}` –" for f in found.findings
+    )  # fmt: skip
+    return [
+        *(weak or ["All combinations are pinned down near the best candidate."]),
+        "",
+        f"Singular values of the Jacobian of the residuals [standard deviations per range of bounds]: {values}. "
+        f"Derivatives with steps of {STEPS[0]:g} and {STEPS[1]:g} of the bounds differ by: {disagreement}.",
+    ]
+
+
+def _restart_table(found: Identification) -> list[str]:
+    labels = [f"`{parameter.label}`" for parameter in found.problem.space.parameters]
+    rows = [
+        f"| loss | fits as well | {' | '.join(labels)} | generations | ended |",
+        "|" + "---|" * (len(labels) + 4),
+    ]
+    for evolution in found.evolutions:
+        values = " | ".join(f"{value:.5g}" for value in found.problem.space.fitted(evolution.best))
+        fits = "yes" if evolution.loss <= found.limit else "no"
+        rows.append(
+            f"| {evolution.loss:.5g} | {fits} | {values} | {evolution.generations} | {evolution.ended} |"
+        )
+    return rows
+
+
+def as_json(found: Identification) -> dict[str, Any]:
+    """The report for programs; numbers that are not finite become null."""
+    value: dict[str, Any] = {
+        "version": __version__,
+        "base": found.problem.base_name,
+        "seed": found.problem.settings.seed,
+        "fingerprint": found.problem.fingerprint,
+        "loss": found.loss,
+        "loss_that_fits_as_well": found.limit,
+        "noise": found.noise,
+        "measurements": found.problem.measurements,
+        "candidates": found.candidates,
+        "simulated_s": found.candidates * found.problem.simulated_s,
+        "values": found.values,
+        "not_in_scene": list(found.left_out),
+        "parameters": [_finding_json(finding) for finding in found.findings],
+        "targets": [vars(outcome) for outcome in found.outcomes],
+        "restarts": [
+            {
+                "loss": evolution.loss,
+                "values": found.problem.space.fitted(evolution.best).tolist(),
+                "generations": evolution.generations,
+                "ended": evolution.ended,
+            }
+            for evolution in found.evolutions
+        ],
+        "singular_values": found.sensitivity.singular_values.tolist(),
+        "directions": found.sensitivity.directions.tolist(),
+        "weak_directions": found.sensitivity.weak_directions,
+    }
+    finite: dict[str, Any] = _finite(value)
+    return finite
+
+
+def _finding_json(finding: Finding) -> dict[str, Any]:
+    parameter, restarts = finding.parameter, finding.restarts
+    return {
+        "path": parameter.path,
+        "times": parameter.times,
+        "best": finding.best,
+        "field_value": finding.field_value,
+        "low": parameter.low,
+        "high": parameter.high,
+        "scale": "log" if parameter.logarithmic else "linear",
+        "verdict": finding.verdict,
+        "sentences": finding.sentences(),
+        "on_bound": finding.bound or None,
+        "fits_from": finding.fits_from,
+        "fits_to": finding.fits_to,
+        "part_of_bounds": finding.part,
+        "restarts": {
+            "least": float(restarts.min()),
+            "greatest": float(restarts.max()),
+            "std": float(restarts.std()),
+            "count": len(restarts),
+        },
+        "std_alone": finding.alone,
+        "std_joint": finding.deviation,
+        "derivative_disagreement": finding.disagreement,
+        "tied_to": list(finding.tied),
+    }
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_finite(each) for each in value]
+    if isinstance(value, float) and not np.isfinite(value):
+        return None
+    return value

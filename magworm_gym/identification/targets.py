@@ -1,0 +1,139 @@
+"""What a robot is to do: a number, a number within bounds, or one number greater than another."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification.quantities import Quantity
+from magworm_gym.identification.residual import SCALAR_KNEE, bounded
+from magworm_gym.recording import Recording
+
+Floats = NDArray[np.float64]
+Recordings = Mapping[str, Recording]
+"""Name of an experiment → what it gave."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How well a target is met.
+
+    Attributes:
+        name: Experiment and quantity.
+        target: What was asked for, in words.
+        model: What the model gives, in the unit of the quantity.
+        error_percent: Deviation from the value asked for [%]; None where none was.
+        error_tolerances: Deviation in tolerances [1]; 0 where bounds are kept.
+        loss: Its share of the loss [1].
+        remark: More, in words; may be empty.
+    """
+
+    name: str
+    target: str
+    model: float
+    error_percent: float | None
+    error_tolerances: float
+    loss: float
+    remark: str = ""
+
+
+class Aim(Protocol):
+    """Something that recordings are compared with."""
+
+    @property
+    def weight(self) -> float:
+        """Number of independent measurements that it counts for [1]."""
+
+    def residuals(self, recordings: Recordings) -> Floats:
+        """Residuals (R,) [1]; their squares add up to the loss."""
+
+    def outcome(self, recordings: Recordings) -> Outcome:
+        """How well it is met."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A quantity of one experiment: equal to a value, or within bounds.
+
+    Attributes:
+        experiment: Name of the experiment.
+        quantity: What is measured.
+        low: Least value allowed, in the unit of the quantity; equal to ``high`` for a value.
+        high: Greatest value allowed.
+        tolerance: Deviation that counts as one, in the unit of the quantity.
+    """
+
+    experiment: str
+    quantity: Quantity
+    low: float
+    high: float
+    tolerance: float
+    weight: float = 1.0
+
+    def deviation(self, recordings: Recordings) -> float:
+        """How far outside of the bounds the model is, in tolerances [1]."""
+        model = self.quantity.measure(recordings[self.experiment])
+        return (model - min(max(model, self.low), self.high)) / self.tolerance
+
+    def residuals(self, recordings: Recordings) -> Floats:
+        """Residual (1,) [1]."""
+        return bounded([self.deviation(recordings)], SCALAR_KNEE)
+
+    def outcome(self, recordings: Recordings) -> Outcome:
+        """How well it is met."""
+        model, deviation = self.quantity.measure(recordings[self.experiment]), self.deviation(recordings)
+        percent = None
+        if self.low == self.high and self.low != 0.0:
+            percent = 100.0 * (model - self.low) / abs(self.low)
+        loss = float(np.square(self.residuals(recordings)).sum())
+        return Outcome(f"{self.experiment}: {self.quantity}", self._words(), model, percent, deviation, loss)
+
+    def _words(self) -> str:
+        if self.low == self.high:
+            return f"{self.low:g} ± {self.tolerance:g}"
+        if np.isinf(self.high):
+            return f"at least {self.low:g}"
+        if np.isinf(self.low):
+            return f"at most {self.high:g}"
+        return f"{self.low:g} to {self.high:g}"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One quantity is greater than another, perhaps of another experiment.
+
+    Attributes:
+        greater: Experiment and quantity that is to be the greater one.
+        less: Experiment and quantity that is to be the smaller one.
+        by: By how much at least, in the unit of the quantities.
+        tolerance: Deviation that counts as one, in the unit of the quantities.
+    """
+
+    greater: tuple[str, Quantity]
+    less: tuple[str, Quantity]
+    by: float
+    tolerance: float
+    weight: float = 1.0
+
+    def margin(self, recordings: Recordings) -> float:
+        """Greater minus smaller, in the unit of the quantities."""
+        (first, great), (second, small) = self.greater, self.less
+        return great.measure(recordings[first]) - small.measure(recordings[second])
+
+    def deviation(self, recordings: Recordings) -> float:
+        """What the margin lacks, in tolerances; not positive [1]."""
+        return min(self.margin(recordings) - self.by, 0.0) / self.tolerance
+
+    def residuals(self, recordings: Recordings) -> Floats:
+        """Residual (1,) [1]."""
+        return bounded([self.deviation(recordings)], SCALAR_KNEE)
+
+    def outcome(self, recordings: Recordings) -> Outcome:
+        """How well it is met; the model's value is the margin."""
+        (first, great), (second, small) = self.greater, self.less
+        name = f"{first}: {great} minus {second}: {small}"
+        loss = float(np.square(self.residuals(recordings)).sum())
+        deviation = self.deviation(recordings)
+        return Outcome(name, f"at least {self.by:g}", self.margin(recordings), None, deviation, loss)
