@@ -52,7 +52,7 @@ class Camera:
         angle = np.radians(self.angle_deg)
         along, up = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
         mirror = 1.0 if self.head == "left" else -1.0
-        return self.metres_per_pixel * np.stack([mirror * along, up], axis=-1)
+        return np.asarray(self.metres_per_pixel * np.stack([mirror * along, up], axis=-1))
 
     def pixels(self, points_m: Floats, origin_px: tuple[float, float]) -> Floats:
         """The inverse of ``points_m``: pixels (…, 2) of places in the scene (…, 2) [m].
@@ -65,7 +65,7 @@ class Camera:
         angle, up = np.radians(self.angle_deg), points_m[..., 1]
         x, y = along * np.cos(angle) - up * np.sin(angle), along * np.sin(angle) + up * np.cos(angle)
         y = -y if self.y_axis == "down" else y
-        return np.stack([x, y], axis=-1) / self.metres_per_pixel + np.array(origin_px)
+        return np.asarray(np.stack([x, y], axis=-1) / self.metres_per_pixel + np.array(origin_px))
 
     def offset_m(self, time_s: Floats, deviation_m: Floats) -> Floats:
         """Offset of the tracks (2,) [m], to be added to them; a median, so outliers do not count.

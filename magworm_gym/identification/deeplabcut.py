@@ -55,12 +55,13 @@ def read_deeplabcut(path: Path) -> Tracks:
     parts, coordinates = rows[1][1:], rows[2][1:]
     columns = _columns(path, parts, coordinates)
     width = len(rows[1])
-    frames, cells = [], []
+    frames: list[int] = []
+    cells: list[list[float]] = []
     for line, row in enumerate(rows[3:], start=4):
         if not row:
             continue
         if len(row) != width:
-            raise ProblemError(f"{path}, line {line} has {len(row)} columns; allowed: {width} as in the header")
+            raise ProblemError(f"{path}, line {line} has {len(row)} columns; allowed: {width}, as in line 2")
         frames.append(_frame(path, line, row[0], frames[-1] if frames else -1))
         cells.append([_cell(path, line, column, text) for column, text in enumerate(row[1:], start=2)])
     if not frames:

@@ -50,7 +50,7 @@ def read_drive(path: Path, start_s: float) -> dict[str, Any]:
         if row:
             values.append(_numbers(path, line, row))
             if len(values) > 1 and values[-1][0] <= values[-2][0]:
-                raise ProblemError(f"{path}, line {line}: time_s is {values[-1][0]:g}; allowed: a rising time")
+                raise ProblemError(f"{path}, line {line}, time_s is {values[-1][0]:g}; allowed: rising")
     if not values:
         raise ProblemError(f"{path} has no rows; allowed: at least one after the header")
     table = np.array(values)
@@ -127,7 +127,7 @@ def _start_offset(
     found = np.concatenate(offsets)
     if not len(found):
         raise ProblemError(
-            f"{tracks.file}: no magnet is seen in the first {START_SPAN_S:g} s, so the drive's place is unknown; "
-            "allowed: a start_s at which the robot is seen at rest, or origin = [x_px, y_px]"
+            f"{tracks.file}: no magnet is seen in the first {START_SPAN_S:g} s, so the drive's place is "
+            "unknown; allowed: a start_s at which the robot is seen at rest, or origin = [x_px, y_px]"
         )
     return np.asarray(np.median(found, axis=0))

@@ -33,7 +33,8 @@ class Experiment:
         Raises:
             SceneError: The scene cannot be simulated.
         """
-        return self.scene.with_values({path: value for path, value in values.items() if path not in self.known})
+        unknown = {path: value for path, value in values.items() if path not in self.known}
+        return self.scene.with_values(unknown)
 
 
 def edited_scene(scene: Scene, values: Mapping[str, Any], where: str) -> Scene:

@@ -80,7 +80,7 @@ def _proposals(members: Floats, generator: np.random.Generator) -> Floats:
     moved[rows, chosen] += generator.normal(0.0, 1.0, ROUND) * spread[chosen]
     thrown[rows, chosen] = generator.random(ROUND)
     proposed = np.select([valley[:, None], axis[:, None], anywhere[:, None]], [along, moved, thrown])
-    return np.clip(proposed, 0.0, 1.0)
+    return np.asarray(np.clip(proposed, 0.0, 1.0))
 
 
 def _outer_members(members: Floats, generator: np.random.Generator) -> Floats:

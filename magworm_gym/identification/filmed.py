@@ -58,7 +58,7 @@ class Film:
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (2 N,) [1], scaled so that the film counts for ``weight`` measurements."""
         deviation = self.deviation_m(recordings[self.experiment]).ravel() / self.tolerance_m
-        return bounded(deviation, TRACK_KNEE) * np.sqrt(self.weight / deviation.size)
+        return np.asarray(bounded(deviation, TRACK_KNEE) * np.sqrt(self.weight / deviation.size))
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met: the root mean square deviation of a coordinate, outliers left out."""

@@ -59,7 +59,9 @@ class Finding:
     @property
     def verdict(self) -> str:
         """``"identified"``, ``"weakly identified"`` or ``"not identifiable"``."""
-        return "not identifiable" if self.part >= OPEN else "weakly identified" if self.part >= LOOSE else "identified"
+        if self.part >= OPEN:
+            return "not identifiable"
+        return "weakly identified" if self.part >= LOOSE else "identified"
 
     @property
     def half_range(self) -> float:
@@ -68,17 +70,19 @@ class Finding:
 
     def sentences(self) -> list[str]:
         """What there is to say about it."""
-        follow = f", if {' and '.join(self.tied)} follow{'s' if len(self.tied) == 1 else ''}" if self.tied else ""
+        follow = f", together with other values of {' and '.join(self.tied)}" if self.tied else ""
         span = f"{self.fits_from:.4g} to {self.fits_to:.4g}"
         said = {
-            "not identifiable": f"not identifiable from these data: any value from {span} fits as well{follow}",
+            "not identifiable": "not identifiable from these data: "
+            f"any value from {span} fits as well{follow}",
             "weakly identified": f"weakly identified: values from {span} fit as well{follow}",
             "identified": f"identified: {span} fits as well{follow}",
         }[self.verdict]
         more = []
         if self.bound:
             more.append(
-                f"lies on its {self.bound} bound: the data want it beyond, or it makes up for what the model lacks"
+                f"lies on its {self.bound} bound: the data want it beyond, or it makes up for "
+                "what the model lacks"
             )
         if self.disagreement > RUGGED:
             more.append("rugged: its derivatives at two steps disagree, so trust the range rather than them")

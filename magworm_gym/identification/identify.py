@@ -91,7 +91,8 @@ def identify(
     try:
         evolutions = search(ledger.losses, evaluator.base_unit, problem.settings, progress)
     except ProblemError as error:
-        raise ProblemError(f"{error}; the base scene says: {evaluator.refusal(evaluator.base_unit)}") from error
+        refusal = evaluator.refusal(evaluator.base_unit)
+        raise ProblemError(f"{error}; the base scene says: {refusal}") from error
     units, known = explore(
         ledger.losses, ledger.units, ledger.known, problem.measurements, problem.settings, progress
     )
@@ -133,7 +134,7 @@ def _open_folder(out: Path, resume: bool) -> Path:
         out.mkdir(parents=True, exist_ok=True)
         taken = any(out.iterdir())
     except OSError as error:
-        raise ProblemError(f"out is {str(out)!r}: {error.strerror}; allowed: a folder that can be made") from error
+        raise ProblemError(f"out is {str(out)!r}: {error.strerror}; allowed: a new folder") from error
     if taken and not resume:
         raise ProblemError(
             f"out is {str(out)!r}, which is not empty; allowed: a new folder, or --resume to go on there"

@@ -48,7 +48,9 @@ class Ledger:
                 fingerprint = str(kept["fingerprint"])
                 units, losses = kept["units"], kept["losses"]
         except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
-            raise ProblemError(f"{self._path} cannot be read; allowed: the file of a run that was stopped") from error
+            raise ProblemError(
+                f"{self._path} cannot be read; allowed: the file of a run that was stopped"
+            ) from error
         if fingerprint != self._fingerprint:
             raise ProblemError(
                 f"{self._path} belongs to another problem, other settings or another version; "

@@ -76,9 +76,11 @@ def _measured(table: Table, key: str, magnets: Mapping[str, int]) -> tuple[str, 
         known = words[2].isdecimal() and int(words[2]) < magnets[words[0]]
     if not known:
         raise table.refusal(
-            key, text, f"experiment.quantity or experiment.quantity.magnet, of {', '.join(magnets)} and "
-            f"{', '.join(MEASURES)}"
-        )  # fmt: skip
+            key,
+            text,
+            f"experiment.quantity or experiment.quantity.magnet, of {', '.join(magnets)} and "
+            f"{', '.join(MEASURES)}",
+        )
     return words[0], Quantity(words[1], int(words[2]) if len(words) == 3 else None)
 
 
@@ -101,9 +103,9 @@ def read_film(
         ProblemError: A value that is not allowed, or a mistake in a file.
     """
     if not experiment.has("tracks"):
-        motion = _drive_file(Table(experiment.take("drive"), experiment.place("drive")), folder) if (
-            experiment.has("drive")
-        ) else None  # fmt: skip
+        motion = None
+        if experiment.has("drive"):
+            motion = _drive_file(Table(experiment.take("drive"), experiment.place("drive")), folder)
         return None, motion, experiment.number("duration_s", low=1e-4, high=3600.0)
     table = Table(experiment.take("tracks"), experiment.place("tracks"))
     camera = _camera(table)
@@ -127,9 +129,10 @@ def read_film(
     motion = None
     if experiment.has("drive"):
         drive = Table(experiment.take("drive"), experiment.place("drive"))
-        motion = _drive_part(drive, tracks, camera, parts, scene, likelihood) if drive.has("part") else (
-            _drive_file(drive, folder)
-        )  # fmt: skip
+        if drive.has("part"):
+            motion = _drive_part(drive, tracks, camera, parts, scene, likelihood)
+        else:
+            motion = _drive_file(drive, folder)
     return filmed, motion, duration_s
 
 
@@ -159,9 +162,10 @@ def _parts(table: Table, magnets: int) -> list[str]:
         or not any(parts)
     ):
         raise table.refusal(
-            "magnets", parts, f"the body part of each of the {magnets} magnets from the head, "
-            '"" for one that was not tracked'
-        )  # fmt: skip
+            "magnets",
+            parts,
+            f'the body part of each of the {magnets} magnets from the head, "" for one that was not tracked',
+        )
     return parts
 
 
@@ -193,6 +197,4 @@ def _drive_part(
     table.done()
     step_s = scene.control_step_s
     start = record_scenes([scene], step_s, step_s, nodes=False)[0].magnet_poses[0, :, :2]
-    return drive_from_film(
-        tracks, camera, part, parts, start, least_likelihood=likelihood, height_m=height_m
-    )
+    return drive_from_film(tracks, camera, part, parts, start, least_likelihood=likelihood, height_m=height_m)

@@ -78,7 +78,7 @@ class ParameterSpace:
 
     def __init__(self, parameters: Sequence[Parameter]) -> None:
         if not parameters:
-            raise ProblemError("parameters is empty; allowed: at least one field of the scene with low and high")
+            raise ProblemError("parameters is empty; allowed: at least one field with low and high")
         plain = {parameter.path for parameter in parameters if parameter.times is None}
         paths = [parameter.path for parameter in parameters]
         for parameter in parameters:
@@ -86,8 +86,8 @@ class ParameterSpace:
                 raise ProblemError(f"parameters has {parameter.path!r} twice; allowed: once")
             if parameter.times is not None and parameter.times not in plain:
                 raise ProblemError(
-                    f"parameters.{parameter.path}.times is {parameter.times!r}; "
-                    f"allowed: another parameter that is no ratio itself ({', '.join(sorted(plain)) or 'none'})"
+                    f"parameters.{parameter.path}.times is {parameter.times!r}; allowed: another "
+                    f"parameter that is no ratio itself ({', '.join(sorted(plain)) or 'there is none'})"
                 )
         self.parameters = tuple(parameters)
 

@@ -105,9 +105,7 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
         raise ProblemError("no experiment has targets or tracks; allowed: at least one of them")
     _check_paths(space, experiments)
     mark = _fingerprint(entries, base, experiments, aims)
-    return Problem(
-        name, base, tuple(fixed), space, tuple(experiments), tuple(aims), sample_s, settings, mark
-    )
+    return Problem(name, base, tuple(fixed), space, tuple(experiments), tuple(aims), sample_s, settings, mark)
 
 
 def _base(table: Table, folder: Path) -> tuple[str, Scene]:
@@ -157,7 +155,8 @@ def _experiments(table: Table, base: Scene, folder: Path) -> tuple[list[Experime
 def _sample(table: Table, experiments: list[Experiment]) -> float:
     steps = [_scene_value(experiment.scene, "solver.step_s") or 1e-3 for experiment in experiments]
     longest = max(steps)
-    sample_s = table.number("sample_s", longest * max(1, ceil(LEAST_SAMPLE_S / longest - 1e-6)), low=1e-7, high=1.0)
+    usual = longest * max(1, ceil(LEAST_SAMPLE_S / longest - 1e-6))
+    sample_s = table.number("sample_s", usual, low=1e-7, high=1.0)
     for experiment, step_s in zip(experiments, steps, strict=True):
         if not _whole(sample_s / step_s):
             allowed = f"a whole number of solver steps of {step_s:g} s, as in experiment {experiment.name!r}"
@@ -187,7 +186,7 @@ def _check_paths(space: ParameterSpace, experiments: list[Experiment]) -> None:
             if _scene_value(experiment.scene, parameter.path) is None:
                 raise ProblemError(
                     f"parameters.{parameter.path} is no number in the scene of experiment "
-                    f"{experiment.name!r}; allowed: the dotted path of one, such as material.youngs_modulus_pa"
+                    f"{experiment.name!r}; allowed: the path of one, such as material.youngs_modulus_pa"
                 )
 
 

@@ -32,13 +32,15 @@ def fitted_scene_toml(found: Identification) -> str:
         origins[finding.parameter.path] = _origin(finding)
     head = [f"The scene {problem.base_name} with {len(found.findings)} identified values."]
     head += [
-        f"Identified too, but no field of this scene: {path} = {found.values[path]:.6g}" for path in found.left_out
+        f"Identified too, but no field of this scene: {path} = {found.values[path]:.6g}"
+        for path in found.left_out
     ]
     return commented_scene(found.scene, origins, f"as in {problem.base_name}", head)
 
 
 def _origin(finding: Finding) -> str:
-    ratio = "" if finding.parameter.times is None else f" as {finding.best:.4g} times {finding.parameter.times}"
+    times = finding.parameter.times
+    ratio = "" if times is None else f" as {finding.best:.4g} times {times}"
     if finding.verdict == "not identifiable":
         return f"not identifiable{ratio}: {finding.fits_from:.4g} to {finding.fits_to:.4g} fits as well"
     return f"identified{ratio}: ±{finding.half_range:.2g}"
@@ -62,8 +64,8 @@ def as_markdown(found: Identification) -> str:
             ],
             "",
             "The range is that of all candidates that fit about as well as the best: loss up to "
-            f"{found.limit:.4g}. ± is half of it. A standard deviation is that of the linearised model, in parts of "
-            "the bounds: alone with all other parameters known, joint with none of them known.",
+            f"{found.limit:.4g}. ± is half of it. A standard deviation is that of the linearised model, in "
+            "parts of the bounds: alone with all other parameters known, joint with none of them known.",
             "",
             "## Targets",
             "",
@@ -84,9 +86,9 @@ def as_markdown(found: Identification) -> str:
 def _summary(found: Identification) -> list[str]:
     problem = found.problem
     said = [
-        f"Base: `{problem.base_name}`. {len(problem.space)} parameters, {len(problem.experiments)} experiments, "
-        f"{problem.measurements:.0f} independent measurements; {found.candidates} candidates, "
-        f"{found.candidates * problem.simulated_s:.0f} s simulated. "
+        f"Base: `{problem.base_name}`. Parameters: {len(problem.space)}, experiments: "
+        f"{len(problem.experiments)}, independent measurements: {problem.measurements:.0f}. "
+        f"Simulated: {found.candidates} candidates, {found.candidates * problem.simulated_s:.0f} s. "
         f"Loss {found.loss:.4g}; magworm-gym {__version__}, seed {problem.settings.seed}.",
     ]
     for verdict in ("not identifiable", "weakly identified"):
@@ -98,9 +100,9 @@ def _summary(found: Identification) -> list[str]:
     if found.noise > MISFIT:
         said += [
             "",
-            f"**The model misses the data by {found.noise:.1f} times the tolerances** (root of loss over degrees "
-            "of freedom); ranges are widened by that. Either the tolerances are too strict, or the model lacks "
-            "something, or a bound keeps it from the data.",
+            f"**The model misses the data by {found.noise:.1f} times the tolerances** (root of loss over "
+            "degrees of freedom); ranges are widened by that. Either the tolerances are too strict, or the "
+            "model lacks something, or a bound keeps it from the data.",
         ]
     return said
 
@@ -114,12 +116,18 @@ def _parameter_table(found: Identification) -> list[str]:
     for f in found.findings:
         parameter, restarts = f.parameter, f.restarts
         field = "" if parameter.times is None else f" (field: {f.field_value:.5g})"
-        rows.append(
-            f"| `{parameter.label}` | {f.best:.5g}{field} | {f.half_range:.2g} | {f.fits_from:.5g} to "
-            f"{f.fits_to:.5g} | {100.0 * f.part:.1f} % | {restarts.min():.5g}, {restarts.max():.5g}, "
-            f"{restarts.std():.2g} ({len(restarts)} of {len(found.evolutions)}) | {parameter.low:g} to "
-            f"{parameter.high:g}{', log' if parameter.logarithmic else ''} | {_part(f.alone)}, {_part(f.deviation)} |"
-        )
+        spread = f"{restarts.min():.5g}, {restarts.max():.5g}, {restarts.std():.2g}"
+        cells = [
+            f"`{parameter.label}`",
+            f"{f.best:.5g}{field}",
+            f"{f.half_range:.2g}",
+            f"{f.fits_from:.5g} to {f.fits_to:.5g}",
+            f"{100.0 * f.part:.1f} %",
+            f"{spread} ({len(restarts)} of {len(found.evolutions)})",
+            f"{parameter.low:g} to {parameter.high:g}{', log' if parameter.logarithmic else ''}",
+            f"{_part(f.alone)}, {_part(f.deviation)}",
+        ]
+        rows.append(f"| {' | '.join(cells)} |")
     return rows
 
 
@@ -138,8 +146,10 @@ def _target_table(found: Identification) -> list[str]:
             f"| {outcome.name} | {outcome.target} | {outcome.model:.5g} | {percent} | "
             f"{outcome.error_tolerances:+.2f} | {outcome.loss:.3g} |"
         )
-    remarks = [f"{outcome.name.split(',')[0]}: {outcome.remark}." for outcome in found.outcomes if outcome.remark]
-    return rows + ([""] + remarks if remarks else [])
+    for outcome in found.outcomes:
+        if outcome.remark:
+            rows += ["", f"{outcome.name.split(',')[0]}: {outcome.remark}."]
+    return rows
 
 
 def _combinations(found: Identification) -> list[str]:
@@ -150,13 +160,15 @@ def _combinations(found: Identification) -> list[str]:
     ]
     values = ", ".join(f"{value:.3g}" for value in sensed.singular_values)
     disagreement = ", ".join(
-        f"`{f.parameter.label}` {100.0 * f.disagreement:.0f} %" if np.isfinite(f.disagreement) else
-        f"`{f.parameter.label}` –" for f in found.findings
-    )  # fmt: skip
+        f"`{f.parameter.label}` "
+        + (f"{100.0 * f.disagreement:.0f} %" if np.isfinite(f.disagreement) else "–")
+        for f in found.findings
+    )
     return [
         *(weak or ["All combinations are pinned down near the best candidate."]),
         "",
-        f"Singular values of the Jacobian of the residuals [standard deviations per range of bounds]: {values}. "
+        "Singular values of the Jacobian of the residuals [standard deviations per range of bounds]: "
+        f"{values}. "
         f"Derivatives with steps of {STEPS[0]:g} and {STEPS[1]:g} of the bounds differ by: {disagreement}.",
     ]
 

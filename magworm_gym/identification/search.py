@@ -55,7 +55,8 @@ class Evolution:
         self.strategy.tell(list(zip(units, losses.tolist(), strict=True)))
         self.generations += 1
         least = float(losses.min())
-        self.idle = 0 if least < self.loss - LEAST_PROGRESS * abs(self.loss) or self.loss == np.inf else self.idle + 1
+        progress = self.generations == 1 or least < self.loss - LEAST_PROGRESS * abs(self.loss)
+        self.idle = 0 if progress else self.idle + 1
         if least < self.loss:
             self.best, self.loss = units[int(losses.argmin())].copy(), least
         if np.ptp(units, axis=0).max() < 4.0 * settings.finest_step or self.strategy.should_stop():
@@ -82,6 +83,7 @@ def search(
         ImportError: The library cmaes is missing; the sentence names the extra to install.
         ProblemError: No candidate within the bounds can be simulated.
     """
+    strategy = _strategy_maker(settings)
     generator = np.random.default_rng([settings.seed, 1])
     scatter = np.vstack([base, latin_hypercube(settings.scatter, len(base), generator)])
     scattered = losses(scatter)
@@ -89,7 +91,7 @@ def search(
         raise ProblemError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
     evolutions = [
-        Evolution(_strategy(origin, int(seed), settings), origin)
+        Evolution(strategy(origin, int(seed)), origin)
         for origin, seed in zip(_origins(scatter, scattered, settings.restarts), seeds, strict=True)
     ]
     best = float(scattered.min())
@@ -120,18 +122,20 @@ def _origins(scatter: Floats, losses: Floats, count: int) -> list[Floats]:
     order = list(scatter[np.argsort(losses, kind="stable")])
     chosen: list[Floats] = []
     while len(chosen) < count:
-        apart = [at for at, unit in enumerate(order) if all(np.linalg.norm(unit - o) >= APART for o in chosen)]
-        chosen.append(order.pop(apart[0] if apart else 0) if order else chosen[len(chosen) - len(scatter)])
+        if not order:
+            order = list(scatter[np.argsort(losses, kind="stable")])
+        apart = (at for at, u in enumerate(order) if all(np.linalg.norm(u - o) >= APART for o in chosen))
+        chosen.append(order.pop(next(apart, 0)))
     return chosen
 
 
-def _strategy(origin: Floats, seed: int, settings: SearchSettings) -> Any:
-    """A fresh evolution strategy in the unit cube."""
+def _strategy_maker(settings: SearchSettings) -> Callable[[Floats, int], Any]:
+    """What makes an evolution strategy in the unit cube from its origin (P,) and its seed."""
     try:
         import cmaes
     except ImportError as error:
         raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[identify]'.") from error
-    return cmaes.CMA(
+    return lambda origin, seed: cmaes.CMA(
         mean=origin,
         sigma=settings.first_step,
         bounds=np.tile([0.0, 1.0], (len(origin), 1)),

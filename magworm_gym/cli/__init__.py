@@ -1,0 +1,42 @@
+"""The command ``magworm``."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from magworm_gym import SceneError, __version__
+from magworm_gym.cli import example_tracks, identify
+from magworm_gym.identification.mistake import ProblemError
+
+MISTAKE = 2
+INTERRUPTED = 130
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Runs the command and exits: 0, 2 for a mistake, which is said in one sentence, 130 for Ctrl-C.
+
+    Args:
+        arguments: Without the program's name; None for those of the process.
+    """
+    parsed = _parser().parse_args(arguments)
+    try:
+        parsed.run(parsed)
+    except (ProblemError, SceneError, ImportError) as mistake:
+        if isinstance(mistake, ImportError) and "pip install" not in str(mistake):
+            raise
+        print(f"magworm {parsed.command}: {mistake}", file=sys.stderr)
+        sys.exit(MISTAKE)
+    except KeyboardInterrupt:
+        print(f"magworm {parsed.command}: stopped", file=sys.stderr)
+        sys.exit(INTERRUPTED)
+    sys.exit(0)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="magworm", description="Tools of the MagWorm simulator.")
+    parser.add_argument("--version", action="version", version=f"magworm-gym {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="command")
+    identify.add_to(commands)
+    example_tracks.add_to(commands)
+    return parser

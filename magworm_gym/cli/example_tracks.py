@@ -1,0 +1,70 @@
+"""``magworm example-tracks``: a film that was never made, to try ``magworm identify`` on."""
+
+import argparse
+import shlex
+from pathlib import Path
+from typing import Any
+
+from magworm_gym.cli.flags import add_constant_drive, add_set, constant_drive, set_values
+from magworm_gym.identification.camera import Camera
+from magworm_gym.identification.example_tracks import Blur, write_example_tracks
+from magworm_gym.identification.experiment import edited_scene
+from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.scene import load_scene
+
+EXAMPLE = {"material.youngs_modulus_pa": 68e3, "ground.static_friction": 0.85}
+BOUNDS = "--fit material.youngs_modulus_pa 45e3 120e3 --fit ground.static_friction 0.64 1.2"
+
+DESCRIPTION = """\
+Simulates a robot that a drive magnet passes once, adds the noise, lost points and outliers of a tracked
+film, and writes them as DeepLabCut would. Stiffness and static friction differ from the preset's, unless
+--set says otherwise; magworm identify should find them again.
+"""
+
+
+def add_to(commands: Any) -> None:
+    """Adds the command to the parsers of ``magworm``."""
+    parser = commands.add_parser(
+        "example-tracks", help="write tracks of a simulated robot, to try identify", description=DESCRIPTION
+    )
+    parser.set_defaults(run=run)
+    parser.add_argument("file", type=Path, help="CSV file to write")
+    parser.add_argument("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
+    add_set(parser)
+    add_constant_drive(parser, -0.05, 0.1)
+    parser.add_argument("--duration-s", type=float, default=1.5, metavar="S", help="(default %(default)s)")
+    parser.add_argument("--metres-per-pixel", type=float, default=1.5e-4, metavar="M", help="(%(default)s)")
+    parser.add_argument("--frames-per-second", type=float, default=60.0, metavar="N", help="(%(default)s)")
+    parser.add_argument("--noise-px", type=float, default=1.0, metavar="PX", help="(%(default)s)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the noise (%(default)s)")
+
+
+def run(parsed: argparse.Namespace) -> None:
+    """Runs the command.
+
+    Raises:
+        ProblemError: A mistake in flags, or the file exists.
+    """
+    if parsed.file.exists():
+        raise ProblemError(f"file is {str(parsed.file)!r}, which exists; allowed: a new one")
+    values = {**EXAMPLE, **set_values(parsed.set), "drive.motion": constant_drive(parsed)}
+    scene = edited_scene(load_scene(parsed.scene), values, "--set")
+    camera = Camera(parsed.metres_per_pixel, parsed.frames_per_second)
+    middle = ["middle"] if scene.magnets == 3 else [f"middle{at}" for at in range(1, scene.magnets - 1)]
+    parts = ["head", *middle, "tail"][: scene.magnets]
+    try:
+        write_example_tracks(
+            parsed.file, scene, parsed.duration_s, camera, parts, blur=Blur(parsed.noise_px), seed=parsed.seed
+        )
+    except (ValueError, OSError) as error:
+        raise ProblemError(str(error)) from error
+    print(
+        f"{parsed.file}: {', '.join(f'{path} = {values[path]:g}' for path in EXAMPLE)}; to find them again:"
+    )
+    edits = " ".join(f"--set {path} {shlex.quote(text)}" for path, text in parsed.set if path not in EXAMPLE)
+    print(
+        f"magworm identify --scene {parsed.scene} --tracks {parsed.file} "
+        f"--metres-per-pixel {parsed.metres_per_pixel:g} --frames-per-second {parsed.frames_per_second:g} "
+        f"--magnets {' '.join(parts)} {BOUNDS} {edits + ' ' if edits else ''}--drive-x {parsed.drive_x:g} "
+        f"--drive-y {parsed.drive_y:g} --drive-speed {parsed.drive_speed:g} --out runs/fit"
+    )

@@ -1,0 +1,229 @@
+"""``magworm identify``: fit a scene to measured numbers and tracks."""
+
+import argparse
+import shlex
+import sys
+from pathlib import Path
+from typing import Any
+
+from magworm_gym.cli.flags import add_constant_drive, add_set, constant_drive, set_values
+from magworm_gym.cli.progress_bar import ProgressBar
+from magworm_gym.identification.identify import Identification, identify
+from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.identification.problem import Problem, make_problem, read_problem
+from magworm_gym.identification.report import write_results
+
+DESCRIPTION = """\
+Fits parameters of a scene to measured numbers (lift, stride, ...) and to tracks of a film (DeepLabCut)
+with CMA-ES, and says which parameters the data pin down.
+
+Either a problem file says everything:
+  magworm identify problem.toml --out runs/fit
+or flags describe one film of one run:
+  magworm identify --tracks worm.csv --metres-per-pixel 1.5e-4 --frames-per-second 60 \\
+      --magnets head middle tail --fit material.youngs_modulus_pa 45e3 120e3 \\
+      --fit ground.static_friction 0.64 1.2 --drive-x -0.05 --drive-speed 0.1 --out runs/fit
+"""
+
+EPILOG = """\
+The folder gets scene.toml (the fitted scene), report.md, report.json and candidates.npz. Ctrl-C stops;
+the same command with --resume goes on and ends with the same result. See docs/identify.md.
+"""
+
+SEARCH_FLAGS = ("restarts", "population", "generations", "scatter", "rounds", "seed")
+CAMERA_FLAGS = (
+    "metres_per_pixel",
+    "frames_per_second",
+    "magnets",
+    "start_s",
+    "head",
+    "y_axis",
+    "angle_deg",
+    "least_likelihood",
+    "tolerance_m",
+)
+NEEDED_FLAGS = ("scene", "metres_per_pixel", "frames_per_second", "magnets", "fit")
+
+
+def add_to(commands: Any) -> None:
+    """Adds the command to the parsers of ``magworm``."""
+    parser = commands.add_parser(
+        "identify",
+        help="fit a scene to measured numbers and tracks of a film",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.set_defaults(run=run)
+    parser.add_argument("problem", nargs="?", type=Path, help="problem file (TOML)")
+    parser.add_argument("--out", type=Path, required=True, help="folder for the results; new or empty")
+    parser.add_argument("--resume", action="store_true", help="go on with what is in the folder")
+    parser.add_argument(
+        "--threads", type=_positive, help="threads (default: all cores); no effect on results"
+    )
+    parser.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
+    _add_search(parser.add_argument_group("search (replaces what the problem file says)"))
+    _add_film(parser.add_argument_group("one film in place of a problem file"))
+    _add_drive(parser.add_argument_group("motion of the drive during the film"))
+
+
+def _positive(text: str) -> int:
+    number = int(text) if text.isdecimal() else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
+    return number
+
+
+def _add_search(group: Any) -> None:
+    group.add_argument("--restarts", type=int, metavar="N", help="evolutions (default 5)")
+    group.add_argument("--population", type=int, metavar="N", help="candidates of each in a generation (32)")
+    group.add_argument("--generations", type=int, metavar="N", help="most generations (100)")
+    group.add_argument(
+        "--scatter", type=int, metavar="N", help="candidates spread over the bounds first (256)"
+    )
+    group.add_argument("--rounds", type=int, metavar="N", help="rounds that explore what fits as well (30)")
+    group.add_argument("--seed", type=int, metavar="N", help="seed of everything random (0)")
+
+
+def _add_film(group: Any) -> None:
+    group.add_argument("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
+    group.add_argument("--tracks", metavar="CSV", help="tracks of DeepLabCut, single animal")
+    group.add_argument("--metres-per-pixel", type=float, metavar="M", help="scale of the film [m/px]")
+    group.add_argument("--frames-per-second", type=float, metavar="N", help="frame rate [1/s]")
+    group.add_argument(
+        "--magnets", nargs="+", metavar="PART", help="body part of each magnet from the head; '' for none"
+    )
+    group.add_argument(
+        "--fit",
+        nargs=3,
+        action="append",
+        metavar=("PATH", "LOW", "HIGH"),
+        help="a number of the scene to fit, and its bounds; may be repeated",
+    )
+    add_set(group)
+    group.add_argument("--start-s", type=float, metavar="S", help="time in the film when the run begins (0)")
+    group.add_argument("--duration-s", type=float, metavar="S", help="how long it is compared (to its end)")
+    group.add_argument("--head", choices=("left", "right"), help="side the head points to (left)")
+    group.add_argument("--y-axis", choices=("down", "up"), help="direction of growing y of pixels (down)")
+    group.add_argument(
+        "--angle-deg", type=float, metavar="DEG", help="how much the ground rises rightwards (0)"
+    )
+    group.add_argument(
+        "--origin",
+        nargs="+",
+        metavar="PX",
+        help="'whole' (default), 'start', or pixel X Y of the scene's origin",
+    )
+    group.add_argument("--least-likelihood", type=float, metavar="P", help="points below are left out (0.6)")
+    group.add_argument(
+        "--tolerance-m", type=float, metavar="M", help="tracking and model may be off (1.5 px)"
+    )
+
+
+def _add_drive(group: Any) -> None:
+    add_constant_drive(group, None, None)
+    group.add_argument("--drive-file", metavar="CSV", help="its motion: columns time_s,x_m,y_m")
+    group.add_argument("--drive-part", metavar="PART", help="body part of the tracks that is the drive")
+
+
+def run(parsed: argparse.Namespace) -> None:
+    """Runs the command.
+
+    Raises:
+        ProblemError: A mistake in flags or files.
+        KeyboardInterrupt: Stopped; how to go on has been printed.
+    """
+    search = {name: value for name in SEARCH_FLAGS if (value := getattr(parsed, name)) is not None}
+    problem = _problem(parsed, search)
+    try:
+        with ProgressBar(quiet=parsed.quiet) as progress:
+            found = identify(
+                problem, parsed.out, resume=parsed.resume, threads=parsed.threads, progress=progress
+            )
+    except KeyboardInterrupt:
+        _say_how_to_go_on(parsed)
+        raise
+    write_results(found, parsed.out)
+    if not parsed.quiet:
+        print(_summary(found, parsed.out))
+
+
+def _problem(parsed: argparse.Namespace, search: dict[str, Any]) -> Problem:
+    if parsed.problem is not None:
+        if parsed.tracks is not None or parsed.fit is not None:
+            raise ProblemError("a problem file and --tracks or --fit are given; allowed: one or the other")
+        return read_problem(parsed.problem, search)
+    if parsed.tracks is None:
+        raise ProblemError("neither a problem file nor --tracks is given; allowed: one of them")
+    for name in NEEDED_FLAGS:
+        if getattr(parsed, name) is None:
+            raise ProblemError(f"--{name.replace('_', '-')} is missing; --tracks needs it")
+    return make_problem(_entries(parsed, search), Path())
+
+
+def _entries(parsed: argparse.Namespace, search: dict[str, Any]) -> dict[str, Any]:
+    """What a problem file would hold."""
+    tracks = {name: value for name in CAMERA_FLAGS if (value := getattr(parsed, name)) is not None}
+    experiment = {
+        "name": "film",
+        "tracks": {"file": parsed.tracks, **tracks, **_origin(parsed)},
+        **_drive(parsed),
+    }
+    if parsed.duration_s is not None:
+        experiment["duration_s"] = parsed.duration_s
+    return {
+        "scene": parsed.scene,
+        "values": set_values(parsed.set),
+        "parameters": {path: {"low": _number(low), "high": _number(high)} for path, low, high in parsed.fit},
+        "experiment": [experiment],
+        "search": search,
+    }
+
+
+def _origin(parsed: argparse.Namespace) -> dict[str, Any]:
+    if parsed.origin is None:
+        return {}
+    if len(parsed.origin) == 2:
+        return {"origin": [_number(text) for text in parsed.origin]}
+    return {"origin": " ".join(parsed.origin)}
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError as error:
+        raise ProblemError(f"--fit or --origin has {text!r}; allowed: a number") from error
+
+
+def _drive(parsed: argparse.Namespace) -> dict[str, Any]:
+    """The drive of the experiment: its table ``drive``, or values."""
+    constant = parsed.drive_x is not None or parsed.drive_speed is not None
+    if constant + (parsed.drive_file is not None) + (parsed.drive_part is not None) > 1:
+        raise ProblemError(
+            "the drive's motion is given twice; allowed: one of --drive-x with --drive-speed, --drive-file "
+            "and --drive-part"
+        )
+    if parsed.drive_file is not None:
+        return {"drive": {"file": parsed.drive_file, "start_s": parsed.start_s or 0.0}}
+    if parsed.drive_part is not None:
+        return {"drive": {"part": parsed.drive_part, "height_m": parsed.drive_y}}
+    if not constant:
+        return {}
+    if parsed.drive_x is None or parsed.drive_speed is None:
+        raise ProblemError("only one of --drive-x and --drive-speed is given; allowed: both")
+    return {"values": {"drive.motion": constant_drive(parsed)}}
+
+
+def _say_how_to_go_on(parsed: argparse.Namespace) -> None:
+    words = sys.argv[1:] + ([] if parsed.resume else ["--resume"])
+    print(f"\nWhat was complete is kept. To go on: magworm {shlex.join(words)}", file=sys.stderr)
+
+
+def _summary(found: Identification, out: Path) -> str:
+    lines = [
+        f"{finding.parameter.label} = {finding.best:.5g}: {'; '.join(finding.sentences())}"
+        for finding in found.findings
+    ]
+    lines.append(f"loss {found.loss:.4g} of {found.problem.measurements:.0f} measurements")
+    lines.append(f"{out / 'scene.toml'}, {out / 'report.md'}, {out / 'report.json'}")
+    return "\n".join(lines)
