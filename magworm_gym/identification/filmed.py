@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.residual import TRACK_KNEE, bounded
+from magworm_gym.identification.residual import robust
 from magworm_gym.identification.targets import Outcome, Recordings
 from magworm_gym.recording import Recording
 
@@ -58,7 +58,7 @@ class Film:
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (2 N,) [1], scaled so that the film counts for ``weight`` measurements."""
         deviation = self.deviation_m(recordings[self.experiment]).ravel() / self.tolerance_m
-        return np.asarray(bounded(deviation, TRACK_KNEE) * np.sqrt(self.weight / deviation.size))
+        return np.asarray(robust(deviation) * np.sqrt(self.weight / deviation.size))
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met: the root mean square deviation of a coordinate, outliers left out."""

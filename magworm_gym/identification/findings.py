@@ -81,11 +81,11 @@ class Finding:
         more = []
         if self.bound:
             more.append(
-                f"lies on its {self.bound} bound: the data want it beyond, or it makes up for "
-                "what the model lacks"
+                f"lies on its {self.bound} bound: the data may want it beyond, or it makes up for what "
+                "the model lacks"
             )
         if self.disagreement > RUGGED:
-            more.append("rugged: its derivatives at two steps disagree, so trust the range rather than them")
+            more.append("rugged: its derivatives at two steps disagree, so trust the range")
         elif np.isnan(self.disagreement):
             more.append("a neighbour of the best value cannot be simulated, so its derivatives are missing")
         return [said, *more]
@@ -144,24 +144,4 @@ def _tied(space: ParameterSpace, fitting: Floats, at: int) -> tuple[str, ...]:
         other.label
         for index, other in enumerate(space.parameters)
         if index != at and moving[index] and abs(correlation[at, index]) > TIED
-    )
-
-
-def direction_in_words(space: ParameterSpace, direction: Floats, singular_value: float) -> str:
-    """A combination of parameters that the data do not pin down.
-
-    Args:
-        space: The parameters.
-        direction: Its shares (P,) [1].
-        singular_value: Its influence [tolerances per range].
-    """
-    order = np.argsort(-np.abs(direction))
-    shares = [
-        f"{space.parameters[at].label} by {direction[at]:+.2f}" for at in order if abs(direction[at]) > 0.15
-    ]
-    joined = " and ".join(shares) if len(shares) < 3 else f"{', '.join(shares[:-1])} and {shares[-1]}"
-    together = ", at once," if len(shares) > 1 else ""
-    return (
-        f"changing {joined} of the bounds{together} changes the residuals by only "
-        f"{singular_value:.2g} standard deviations"
     )

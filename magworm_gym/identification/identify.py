@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
+from magworm_gym.identification.combinations import FreeCombination, free_combinations
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.exploration import explore, threshold
 from magworm_gym.identification.findings import Finding, findings
@@ -37,6 +38,7 @@ class Identification:
         findings: What is known of each parameter.
         evolutions: The evolutions, best first.
         sensitivity: Derivatives at the best point.
+        free: Combinations that the data leave free.
         scene: The base scene with the fitted values.
         left_out: Fitted paths that the base scene does not have, such as those of an experiment's drive.
     """
@@ -51,6 +53,7 @@ class Identification:
     findings: list[Finding]
     evolutions: list[Evolution]
     sensitivity: Sensitivity
+    free: list[FreeCombination]
     scene: Scene
     left_out: tuple[str, ...]
 
@@ -106,6 +109,7 @@ def _identification(
     limit = threshold(loss, problem.measurements, len(problem.space))
     sensed = sensitivity(evaluator.verdicts, best, _noise(problem, loss))
     values = problem.space.scene_values(best)
+    fitting = units[known <= limit]
     scene, left_out = _fitted_scene(problem.base, values)
     return Identification(
         problem=problem,
@@ -115,9 +119,10 @@ def _identification(
         limit=limit,
         candidates=len(known),
         outcomes=evaluator.outcomes(best),
-        findings=findings(problem.space, best, evolutions, units[known <= limit], limit, sensed),
+        findings=findings(problem.space, best, evolutions, fitting, limit, sensed),
         evolutions=evolutions,
         sensitivity=sensed,
+        free=free_combinations(best, fitting),
         scene=scene,
         left_out=left_out,
     )

@@ -182,6 +182,12 @@ def _check_paths(space: ParameterSpace, experiments: list[Experiment]) -> None:
                 f"parameters.{parameter.path} is set by the values of every experiment; "
                 "allowed: a field that at least one of them leaves open"
             )
+        for experiment in experiments:
+            if parameter.times in experiment.known and parameter.path not in experiment.known:
+                raise ProblemError(
+                    f"experiment {experiment.name!r} sets {parameter.times} but leaves {parameter.path} to a "
+                    "ratio of it; allowed: both or none of them"
+                )
         for experiment in fitted:
             if _scene_value(experiment.scene, parameter.path) is None:
                 raise ProblemError(

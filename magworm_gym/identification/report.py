@@ -8,7 +8,8 @@ import numpy as np
 
 from magworm_gym import __version__
 from magworm_gym.identification.atomic import write_text
-from magworm_gym.identification.findings import Finding, direction_in_words
+from magworm_gym.identification.combinations import in_words
+from magworm_gym.identification.findings import Finding
 from magworm_gym.identification.identifiability import STEPS
 from magworm_gym.identification.identify import Identification
 from magworm_gym.identification.scene_file import commented_scene
@@ -155,7 +156,13 @@ def _target_table(found: Identification) -> list[str]:
 def _combinations(found: Identification) -> list[str]:
     sensed, space = found.sensitivity, found.problem.space
     weak = [
-        f"- Not pinned down: {direction_in_words(space, sensed.directions[at], sensed.singular_values[at])}."
+        f"- Free: {in_words(space, free.direction)} of the bounds, at once; what fits as well reaches over "
+        f"{free.length:.2f} of the unit cube."
+        for free in found.free
+    ]
+    weak += [
+        f"- Weak: {in_words(space, sensed.directions[at])} of the bounds, at once, changes the residuals by "
+        f"only {sensed.singular_values[at]:.2g} standard deviations."
         for at in sensed.weak_directions
     ]
     values = ", ".join(f"{value:.3g}" for value in sensed.singular_values)
@@ -165,7 +172,7 @@ def _combinations(found: Identification) -> list[str]:
         for f in found.findings
     )
     return [
-        *(weak or ["All combinations are pinned down near the best candidate."]),
+        *(weak or ["The data pin down all combinations."]),
         "",
         "Singular values of the Jacobian of the residuals [standard deviations per range of bounds]: "
         f"{values}. "
@@ -217,6 +224,9 @@ def as_json(found: Identification) -> dict[str, Any]:
         "singular_values": found.sensitivity.singular_values.tolist(),
         "directions": found.sensitivity.directions.tolist(),
         "weak_directions": found.sensitivity.weak_directions,
+        "free_combinations": [
+            {"direction": free.direction.tolist(), "length": free.length} for free in found.free
+        ],
     }
     finite: dict[str, Any] = _finite(value)
     return finite

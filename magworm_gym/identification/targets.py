@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.identification.quantities import Quantity
-from magworm_gym.identification.residual import SCALAR_KNEE, bounded
+from magworm_gym.identification.residual import guiding
 from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
@@ -79,7 +79,7 @@ class Target:
 
     def residuals(self, recordings: Recordings) -> Floats:
         """Residual (1,) [1]."""
-        return bounded([self.deviation(recordings)], SCALAR_KNEE)
+        return guiding([self.deviation(recordings)])
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met."""
@@ -128,7 +128,7 @@ class Comparison:
 
     def residuals(self, recordings: Recordings) -> Floats:
         """Residual (1,) [1]."""
-        return bounded([self.deviation(recordings)], SCALAR_KNEE)
+        return guiding([self.deviation(recordings)])
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met; the model's value is the margin."""
