@@ -12,7 +12,8 @@ Floats = NDArray[np.float64]
 FREE = 0.5
 """Length in the unit cube from which on a combination counts as free [1]."""
 
-LEAST_SHARE = 0.15
+LEAST_SHARE = 0.3
+"""Shares below are left out of words [1]."""
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ def threshold(best: float, measurements: float, parameters: int) -> float:
 
 def explore(
     losses: Losses,
+    axes: Floats,
     units: Floats,
     known: Floats,
     measurements: float,
@@ -45,11 +46,12 @@ def explore(
 ) -> tuple[Floats, Floats]:
     """Wanders through the set of candidates that fit about as well as the best, to find its ends.
 
-    A third of the steps go along the difference of two members, which follows narrow valleys, a third
-    along one axis, and a third along one axis to anywhere within the bounds.
+    Some of the steps go along the difference of two members, which follows narrow valleys, some along what
+    the derivatives call free, some along one parameter, some along one parameter to anywhere.
 
     Args:
         losses: Gives the losses (C,) of points of the unit cube (C, P).
+        axes: Steps (P, P) at the best point, one a row, that should fit about as well.
         units: Candidates of the search (C, P).
         known: Their losses (C,).
         measurements: Number of independent measurements [1].
@@ -62,29 +64,33 @@ def explore(
     generator = np.random.default_rng([settings.seed, 2])
     for done in range(settings.rounds):
         members = units[known <= threshold(float(known.min()), measurements, units.shape[1])]
-        proposed = _proposals(members, generator)
+        proposed = _proposals(members, axes, generator)
         units, known = np.vstack([units, proposed]), np.append(known, losses(proposed))
         if progress is not None:
             progress("explore", done + 1, settings.rounds, float(known.min()))
     return units, known
 
 
-def _proposals(members: Floats, generator: np.random.Generator) -> Floats:
+def _proposals(members: Floats, axes: Floats, generator: np.random.Generator) -> Floats:
     """New points of the cube (ROUND, P) around members of the set (K, P)."""
     count, dimension = members.shape
     rows = np.arange(ROUND)
     start = _outer_members(members, generator)
-    valley, axis, anywhere = (rows % 3 == kind for kind in range(3))
+    valley, free, axis, anywhere = (rows // 2 % 4 == kind for kind in range(4))
     pairs = generator.integers(count, size=(2, ROUND))
     stretch = generator.uniform(0.3, 2.0, (ROUND, 1)) * generator.choice([-1.0, 1.0], (ROUND, 1))
     along = start + stretch * (members[pairs[0]] - members[pairs[1]])
     along += generator.normal(0.0, 1e-3, (ROUND, dimension))
+    lengths = generator.normal(0.0, 1.0, (ROUND, 1)) * 10.0 ** generator.uniform(-1.5, 0.5, (ROUND, 1))
+    freely = start + lengths * axes[generator.integers(dimension, size=ROUND)]
     chosen = generator.integers(dimension, size=ROUND)
     spread = np.maximum(np.ptp(members, axis=0), FIRST_SPREAD)
     moved, thrown = start.copy(), start.copy()
     moved[rows, chosen] += generator.normal(0.0, 1.0, ROUND) * spread[chosen]
     thrown[rows, chosen] = generator.random(ROUND)
-    proposed = np.select([valley[:, None], axis[:, None], anywhere[:, None]], [along, moved, thrown])
+    proposed = np.select(
+        [valley[:, None], free[:, None], axis[:, None], anywhere[:, None]], [along, freely, moved, thrown]
+    )
     return np.asarray(np.clip(proposed, 0.0, 1.0))
 
 

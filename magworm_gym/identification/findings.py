@@ -20,6 +20,9 @@ LOOSE = 0.2
 AT_BOUND = 0.01
 """Distance from a bound that counts as on it, as a part of the bounds [1]."""
 
+NORMAL_95 = 1.96
+"""Half the 95 % interval of a normal distribution in standard deviations [1]."""
+
 TIED = 0.7
 """Correlation, among what fits as well, from which on parameters count as tied to each other [1]."""
 
@@ -59,9 +62,20 @@ class Finding:
     @property
     def verdict(self) -> str:
         """``"identified"``, ``"weakly identified"`` or ``"not identifiable"``."""
-        if self.part >= OPEN:
+        part = max(self.part, self.linear_part)
+        if part >= OPEN:
             return "not identifiable"
-        return "weakly identified" if self.part >= LOOSE else "identified"
+        return "weakly identified" if part >= LOOSE else "identified"
+
+    @property
+    def linear_part(self) -> float:
+        """What the range may have missed because other parameters must follow, as a part of the bounds [1].
+
+        The 95 % interval of the linearised model, at most 1; 0 where the parameter has little influence by
+        itself, since the search looks all along its axis.
+        """
+        alone, joint = 2.0 * NORMAL_95 * self.alone, 2.0 * NORMAL_95 * self.deviation
+        return min(1.0, joint) if alone < OPEN and not np.isnan(joint) else 0.0
 
     @property
     def half_range(self) -> float:
@@ -72,12 +86,20 @@ class Finding:
         """What there is to say about it."""
         follow = f", together with other values of {' and '.join(self.tied)}" if self.tied else ""
         span = f"{self.fits_from:.4g} to {self.fits_to:.4g}"
+        if self.linear_part >= OPEN > self.part:
+            said = (
+                f"{self.verdict} from these data: others can make up for a change of it; values found reach"
+            )
+            return [f"{said} from {span}", *self._remarks()]
         said = {
             "not identifiable": "not identifiable from these data: "
             f"any value from {span} fits as well{follow}",
             "weakly identified": f"weakly identified: values from {span} fit as well{follow}",
             "identified": f"identified: {span} fits as well{follow}",
         }[self.verdict]
+        return [said, *self._remarks()]
+
+    def _remarks(self) -> list[str]:
         more = []
         if self.bound:
             more.append(
@@ -85,10 +107,10 @@ class Finding:
                 "the model lacks"
             )
         if self.disagreement > RUGGED:
-            more.append("rugged: its derivatives at two steps disagree, so trust the range")
+            more.append("rugged: its derivatives at two steps disagree, so trust the range more than them")
         elif np.isnan(self.disagreement):
-            more.append("a neighbour of the best value cannot be simulated, so its derivatives are missing")
-        return [said, *more]
+            more.append("no neighbour of the best value can be simulated, so derivatives are missing")
+        return more
 
 
 def findings(

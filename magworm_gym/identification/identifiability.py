@@ -30,10 +30,10 @@ class Sensitivity:
         singular_values: Singular values of the Jacobian (P,), greatest first [tolerances per range].
         directions: Combinations (P, P) that belong to them, one a row [1].
         deviations: Standard deviation of each parameter (P,), as a part of its bounds [1]; infinite
-            where a combination has no influence.
+            where a combination has no influence, NaN where no neighbour can be simulated.
         alone: The same with all other parameters known (P,) [1].
-        disagreement: Relative difference of the derivatives at both steps (P,) [1]; NaN where one of
-            them could not be simulated.
+        disagreement: Relative difference of the derivatives at both steps (P,) [1]; NaN where
+            no neighbour can be simulated.
     """
 
     singular_values: Floats
@@ -41,6 +41,12 @@ class Sensitivity:
     deviations: Floats
     alone: Floats
     disagreement: Floats
+
+    @property
+    def axes(self) -> Floats:
+        """Steps (P, P), one a row, of one standard deviation of the residuals, at most 1 long [1]."""
+        lengths = np.minimum(1.0, 1.0 / np.maximum(self.singular_values, LEAST_SINGULAR))
+        return np.asarray(lengths[:, None] * self.directions)
 
     @property
     def weak_directions(self) -> list[int]:
@@ -59,6 +65,7 @@ def sensitivity(verdicts: Callable[[Floats], list[Verdict]], best: Floats, noise
     jacobian, fine = (_jacobian(verdicts, best, step) for step in STEPS)
     scale = np.maximum(np.linalg.norm(jacobian, axis=0), np.linalg.norm(fine, axis=0))
     disagreement = np.linalg.norm(jacobian - fine, axis=0) / np.maximum(scale, 1e-12)
+    unknown = np.isnan(jacobian).any(axis=0)
     jacobian = np.nan_to_num(jacobian) / noise
     _, values, directions = np.linalg.svd(jacobian, full_matrices=True)
     singular = np.zeros(len(best))
@@ -67,21 +74,22 @@ def sensitivity(verdicts: Callable[[Floats], list[Verdict]], best: Floats, noise
     with np.errstate(invalid="ignore", divide="ignore"):
         shares = np.where(np.abs(directions.T) > 1e-9, np.abs(directions.T) * inverse, 0.0)
         alone = 1.0 / np.linalg.norm(jacobian, axis=0)
-    return Sensitivity(singular, directions, np.linalg.norm(shares, axis=1), alone, disagreement)
+    deviations = np.where(unknown, np.nan, np.linalg.norm(shares, axis=1))
+    return Sensitivity(singular, directions, deviations, np.where(unknown, np.nan, alone), disagreement)
 
 
 def _jacobian(verdicts: Callable[[Floats], list[Verdict]], best: Floats, step: float) -> Floats:
-    """Derivatives of the residuals (R, P); NaN columns where a neighbour cannot be simulated."""
+    """Derivatives of the residuals (R, P), to one side where the other cannot be simulated, else NaN."""
     dimension = len(best)
     above = np.clip(best + step * np.eye(dimension), 0.0, 1.0)
     below = np.clip(best - step * np.eye(dimension), 0.0, 1.0)
-    found = [verdict.residuals for verdict in verdicts(np.vstack([above, below, best[None]]))]
-    size = len(next(residuals for residuals in found[::-1] if residuals is not None))
+    *found, centre = (verdict.residuals for verdict in verdicts(np.vstack([above, below, best[None]])))
+    assert centre is not None, "the best candidate can be simulated"
     columns = []
     for at in range(dimension):
         high, low = found[at], found[dimension + at]
-        if high is None or low is None:
-            columns.append(np.full(size, np.nan))
-        else:
-            columns.append((high - low) / (above[at, at] - below[at, at]))
+        top = best[at] if high is None else above[at, at]
+        bottom = best[at] if low is None else below[at, at]
+        rise = (centre if high is None else high) - (centre if low is None else low)
+        columns.append(rise / (top - bottom) if top > bottom else np.full(len(centre), np.nan))
     return np.stack(columns, axis=1)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from magworm_gym._magworm import Scene
 from magworm_gym.identification.combinations import FreeCombination, free_combinations
 from magworm_gym.identification.evaluation import Evaluator
-from magworm_gym.identification.exploration import explore, threshold
+from magworm_gym.identification.exploration import CHI_SQUARE_95, explore, threshold
 from magworm_gym.identification.findings import Finding, findings
 from magworm_gym.identification.identifiability import Sensitivity, sensitivity
 from magworm_gym.identification.ledger import Ledger
@@ -58,9 +58,10 @@ class Identification:
     left_out: tuple[str, ...]
 
     @property
-    def noise(self) -> float:
-        """Standard deviation of a residual: 1 where the misfit is within the tolerances [1]."""
-        return _noise(self.problem, self.loss)
+    def misfit(self) -> float:
+        """Root of the loss over degrees of freedom: about 1 where the model meets the data [1]."""
+        free = max(self.problem.measurements - len(self.problem.space), 1.0)
+        return float(np.sqrt(self.loss / free))
 
 
 def identify(
@@ -96,8 +97,9 @@ def identify(
     except ProblemError as error:
         refusal = evaluator.refusal(evaluator.base_unit)
         raise ProblemError(f"{error}; the base scene says: {refusal}") from error
+    axes = _sensitivity(problem, evaluator, ledger.units, ledger.known).axes
     units, known = explore(
-        ledger.losses, ledger.units, ledger.known, problem.measurements, problem.settings, progress
+        ledger.losses, axes, ledger.units, ledger.known, problem.measurements, problem.settings, progress
     )
     return _identification(problem, evaluator, evolutions, units, known)
 
@@ -107,7 +109,7 @@ def _identification(
 ) -> Identification:
     best, loss = units[int(known.argmin())], float(known.min())
     limit = threshold(loss, problem.measurements, len(problem.space))
-    sensed = sensitivity(evaluator.verdicts, best, _noise(problem, loss))
+    sensed = _sensitivity(problem, evaluator, units, known)
     values = problem.space.scene_values(best)
     fitting = units[known <= limit]
     scene, left_out = _fitted_scene(problem.base, values)
@@ -128,9 +130,11 @@ def _identification(
     )
 
 
-def _noise(problem: Problem, loss: float) -> float:
-    free = max(problem.measurements - len(problem.space), 1.0)
-    return float(np.sqrt(max(1.0, loss / free)))
+def _sensitivity(problem: Problem, evaluator: Evaluator, units: Floats, known: Floats) -> Sensitivity:
+    """Derivatives at the best of all candidates, against the noise that the threshold stands for."""
+    loss = float(known.min())
+    noise = np.sqrt((threshold(loss, problem.measurements, len(problem.space)) - loss) / CHI_SQUARE_95)
+    return sensitivity(evaluator.verdicts, units[int(known.argmin())], float(noise))
 
 
 def _open_folder(out: Path, resume: bool) -> Path:

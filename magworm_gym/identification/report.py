@@ -14,8 +14,11 @@ from magworm_gym.identification.identifiability import STEPS
 from magworm_gym.identification.identify import Identification
 from magworm_gym.identification.scene_file import commented_scene
 
+MOST_DIRECTIONS = 4
+"""Most weak directions that are written out."""
+
 MISFIT = 1.5
-"""Standard deviation of a residual beyond which the report says that the model does not fit [1]."""
+"""Misfit beyond which the report says that the model does not fit [1]."""
 
 
 def write_results(found: Identification, out: Path) -> None:
@@ -98,10 +101,10 @@ def _summary(found: Identification) -> list[str]:
             said += ["", f"**{verdict.capitalize()} from these data: {', '.join(labels)}.**"]
     if len(problem.space) > problem.measurements:
         said += ["", "**There are more parameters than measurements.**"]
-    if found.noise > MISFIT:
+    if found.misfit > MISFIT:
         said += [
             "",
-            f"**The model misses the data by {found.noise:.1f} times the tolerances** (root of loss over "
+            f"**The model misses the data by {found.misfit:.1f} times the tolerances** (root of loss over "
             "degrees of freedom); ranges are widened by that. Either the tolerances are too strict, or the "
             "model lacks something, or a bound keeps it from the data.",
         ]
@@ -133,7 +136,7 @@ def _parameter_table(found: Identification) -> list[str]:
 
 
 def _part(value: float) -> str:
-    return f"{value:.2g}" if value < 10.0 else "over 10"
+    return "–" if np.isnan(value) else f"{value:.2g}" if value < 10.0 else "over 10"
 
 
 def _target_table(found: Identification) -> list[str]:
@@ -160,11 +163,14 @@ def _combinations(found: Identification) -> list[str]:
         f"{free.length:.2f} of the unit cube."
         for free in found.free
     ]
+    weakest = sensed.weak_directions[::-1]
     weak += [
         f"- Weak: {in_words(space, sensed.directions[at])} of the bounds, at once, changes the residuals by "
         f"only {sensed.singular_values[at]:.2g} standard deviations."
-        for at in sensed.weak_directions
+        for at in weakest[:MOST_DIRECTIONS]
     ]
+    if len(weakest) > MOST_DIRECTIONS:
+        weak.append(f"- {len(weakest) - MOST_DIRECTIONS} more such directions are in report.json.")
     values = ", ".join(f"{value:.3g}" for value in sensed.singular_values)
     disagreement = ", ".join(
         f"`{f.parameter.label}` "
@@ -204,7 +210,7 @@ def as_json(found: Identification) -> dict[str, Any]:
         "fingerprint": found.problem.fingerprint,
         "loss": found.loss,
         "loss_that_fits_as_well": found.limit,
-        "noise": found.noise,
+        "misfit": found.misfit,
         "measurements": found.problem.measurements,
         "candidates": found.candidates,
         "simulated_s": found.candidates * found.problem.simulated_s,
