@@ -7,6 +7,7 @@ import gymnasium
 import numpy as np
 
 import magworm_gym
+import magworm_gym.cli
 
 ALLOWED = {
     "cloudpickle", "farama-notifications", "gymnasium", "magworm-gym", "numpy", "pip", "setuptools",

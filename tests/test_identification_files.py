@@ -1,6 +1,7 @@
 """Files and flags of the identification, and what is said of mistakes in them."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,9 +14,12 @@ from magworm_gym.identification import (
     ProblemError,
     make_problem,
     read_deeplabcut,
+    read_problem,
     write_example_tracks,
 )
+from magworm_gym.identification.quantities import MEASURES
 
+REPOSITORY = Path(__file__).parent.parent
 PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
 HEADER = "scorer,s,s,s\nbodyparts,head,head,head\ncoords,x,y,likelihood\n"
 TRACKS = {"file": "worm.csv", "metres_per_pixel": 1e-4, "frames_per_second": 50.0, "magnets": ["a", "b", "c"]}
@@ -223,3 +227,21 @@ def test_a_missing_library_is_named_with_its_extra(tmp_path, capsys, monkeypatch
     code, said = command(capsys, *words, tmp_path / "fit")
     assert code == 2
     assert "pip install 'magworm-gym[identify]'" in said.err
+
+
+@pytest.mark.parametrize(
+    "problem", sorted((REPOSITORY / "studies/identification").glob("*.toml")), ids=lambda p: p.stem
+)
+def test_problems_of_the_repository_can_be_read(problem):
+    assert read_problem(problem).measurements >= 1
+
+
+def test_the_problem_of_the_documentation_can_be_read(tmp_path):
+    text = (REPOSITORY / "docs/identify.md").read_text(encoding="utf-8")
+    (tmp_path / "problem.toml").write_text(text.split("```toml\n")[1].split("```")[0], encoding="utf-8")
+    scene = Scene.preset("paper-3").with_values(PASS)
+    write_example_tracks(tmp_path / "worm.csv", scene, 1.5, Camera(1.5e-4, 60.0), ["head", "middle", "tail"])
+    problem = read_problem(tmp_path / "problem.toml")
+    assert len(problem.aims) == 5
+    documented = text.split("| quantity | what |")[1].split("\n\n")[0]
+    assert all(f"| `{kind}` | {meaning} |" in documented for kind, (_, meaning) in MEASURES.items())
