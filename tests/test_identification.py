@@ -169,6 +169,28 @@ def test_a_folder_in_use_and_another_problem_are_refused(tmp_path):
         identify(short_problem(seed=1), tmp_path, resume=True)
 
 
+def test_bounds_that_no_scene_fits_in_are_refused_with_the_reason():
+    problem = make_problem(
+        {
+            "scene": "paper-3",
+            "parameters": {"ground.static_friction": {"low": 0.1, "high": 0.2}},
+            "experiment": [
+                {
+                    "duration_s": 0.1,
+                    "values": PASS,
+                    "targets": [{"quantity": "stride_m", "value": 0.0, "tolerance": 1e-3}],
+                }
+            ],
+            "search": SMALL,
+        },
+        Path(),
+    )
+    with pytest.raises(
+        ProblemError, match="no candidate within the bounds can be simulated; .*dynamic_friction"
+    ):
+        identify(problem)
+
+
 def test_quantities_are_what_a_ruler_would_measure():
     recording = path_recording([0.02, 0.01, 0.012], [0.003, 0.006, 0.004])
     measured = {

@@ -15,7 +15,7 @@ from magworm_gym.identification.identifiability import Sensitivity, sensitivity
 from magworm_gym.identification.ledger import Ledger
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.problem import Problem, scene_numbers
-from magworm_gym.identification.search import Evolution, Progress, search
+from magworm_gym.identification.search import Evolution, NothingRunsError, Progress, search
 from magworm_gym.identification.targets import Outcome
 
 Floats = NDArray[np.float64]
@@ -94,9 +94,9 @@ def identify(
         ledger.load()
     try:
         evolutions = search(ledger.losses, evaluator.base_unit, problem.settings, progress)
-    except ProblemError as error:
+    except NothingRunsError as error:
         refusal = evaluator.refusal(evaluator.base_unit)
-        raise ProblemError(f"{error}; the base scene says: {refusal}") from error
+        raise ProblemError(f"{error}; nearest to the base scene: {refusal}") from error
     axes = _sensitivity(problem, evaluator, ledger.units, ledger.known).axes
     units, known = explore(
         ledger.losses, axes, ledger.units, ledger.known, problem.measurements, problem.settings, progress

@@ -30,6 +30,10 @@ LEAST_PROGRESS = 1e-3
 SEED_LIMIT = 2**31
 
 
+class NothingRunsError(ProblemError):
+    """No candidate within the bounds can be simulated."""
+
+
 @dataclass
 class Evolution:
     """One run of CMA-ES.
@@ -81,14 +85,14 @@ def search(
 
     Raises:
         ImportError: The library cmaes is missing; the sentence names the extra to install.
-        ProblemError: No candidate within the bounds can be simulated.
+        NothingRunsError: No candidate within the bounds can be simulated.
     """
     strategy = _strategy_maker(settings)
     generator = np.random.default_rng([settings.seed, 1])
     scatter = np.vstack([base, latin_hypercube(settings.scatter, len(base), generator)])
     scattered = losses(scatter)
     if scattered.min() >= BROKEN:
-        raise ProblemError("no candidate within the bounds can be simulated")
+        raise NothingRunsError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
     evolutions = [
         Evolution(strategy(origin, int(seed)), origin)
