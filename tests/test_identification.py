@@ -186,7 +186,7 @@ def test_bounds_that_no_scene_fits_in_are_refused_with_the_reason():
         Path(),
     )
     with pytest.raises(
-        ProblemError, match="no candidate within the bounds can be simulated; .*dynamic_friction"
+        ProblemError, match=r"no candidate within the bounds can be simulated; .*dynamic_friction"
     ):
         identify(problem)
 
