@@ -22,6 +22,21 @@ from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.targets import Comparison, Target
 
 PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
+ROBOT = {
+    "body.width_m": 0.021,
+    "material.youngs_modulus_pa": 75e3,
+    "material.damping_time_s": 0.0076,
+    "magnet.length_m": 0.0083,
+    "magnet.width_m": 0.0092,
+    "magnet.height_m": 0.0023,
+    "drive.length_m": 0.0253,
+    "drive.width_m": 0.0427,
+    "drive.height_m": 0.0033,
+    "ground.static_friction": 0.75,
+    "ground.dynamic_friction": 0.63,
+    "ground.adhesion_n": 0.0009,
+}
+"""Values that these tests count on, whatever the preset's are."""
 CAMERA = Camera(metres_per_pixel=1.5e-4, frames_per_second=60.0)
 PARTS = ["head", "middle", "tail"]
 FILM = {"file": "worm.csv", "metres_per_pixel": 1.5e-4, "frames_per_second": 60.0, "magnets": PARTS}
@@ -29,11 +44,18 @@ SMALL = {"restarts": 2, "population": 10, "generations": 25, "scatter": 96, "rou
 
 
 def film_problem(folder, truth, parameters, seed=0, search=SMALL, **tracks):
-    scene = Scene.preset("paper-3").with_values({**truth, **PASS})
+    scene = Scene.preset("paper-3").with_values({**ROBOT, **truth, **PASS})
     write_example_tracks(folder / "worm.csv", scene, 1.5, CAMERA, PARTS, seed=seed)
     experiment = {"name": "pass", "values": PASS, "tracks": {**FILM, **tracks}}
     return make_problem(
-        {"scene": "paper-3", "parameters": parameters, "experiment": [experiment], "search": search}, folder
+        {
+            "scene": "paper-3",
+            "values": ROBOT,
+            "parameters": parameters,
+            "experiment": [experiment],
+            "search": search,
+        },
+        folder,
     )
 
 
@@ -48,6 +70,7 @@ def short_problem(**search):
     return make_problem(
         {
             "scene": "paper-3",
+            "values": ROBOT,
             "parameters": {
                 "material.youngs_modulus_pa": {"low": 45e3, "high": 120e3, "scale": "log"},
                 "ground.static_friction": {"low": 0.64, "high": 1.2},
@@ -121,6 +144,7 @@ def test_friction_is_not_identifiable_where_nothing_slides(tmp_path):
     problem = make_problem(
         {
             "scene": "paper-3",
+            "values": ROBOT,
             "parameters": {"ground.dynamic_friction": {"low": 0.3, "high": 0.75}},
             "experiment": [experiment],
             "search": SMALL,
@@ -173,6 +197,7 @@ def test_bounds_that_no_scene_fits_in_are_refused_with_the_reason():
     problem = make_problem(
         {
             "scene": "paper-3",
+            "values": ROBOT,
             "parameters": {"ground.static_friction": {"low": 0.1, "high": 0.2}},
             "experiment": [
                 {
@@ -222,6 +247,7 @@ def test_refused_scenes_are_worse_than_broken_ones_and_those_than_any_other():
     problem = make_problem(
         {
             "scene": "paper-3",
+            "values": ROBOT,
             "parameters": {"ground.static_friction": {"low": 0.1, "high": 1.2}},
             "experiment": [
                 {
@@ -242,9 +268,11 @@ def test_the_written_scene_says_where_values_come_from_and_loads_again(tmp_path)
     found = identify(short_problem())
     write_results(found, tmp_path)
     text = (tmp_path / "scene.toml").read_text()
-    assert Scene.from_toml(text) == found.scene == Scene.preset("paper-3").with_values(found.values)
+    assert Scene.from_toml(text) == found.scene
+    assert found.scene == Scene.preset("paper-3").with_values({**ROBOT, **found.values})
     lines = {line.split(" = ")[0]: line for line in text.splitlines() if " = " in line}
     assert "identif" in lines["youngs_modulus_pa"].split("#")[1]
+    assert lines["adhesion_n"].endswith("# set in the problem")
     assert lines["gravity_m_s2"].endswith("# as in paper-3")
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["values"] == found.values

@@ -10,14 +10,20 @@ from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.example_tracks import Blur, write_example_tracks
 from magworm_gym.identification.experiment import edited_scene
 from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.identification.problem import scene_numbers
 from magworm_gym.scene import load_scene
 
-EXAMPLE = {"material.youngs_modulus_pa": 68e3, "ground.static_friction": 0.85}
-BOUNDS = "--fit material.youngs_modulus_pa 45e3 120e3 --fit ground.static_friction 0.64 1.2"
+STIFFNESS, STATIC, DYNAMIC = "material.youngs_modulus_pa", "ground.static_friction", "ground.dynamic_friction"
+
+TRUTH = {STIFFNESS: 0.9, STATIC: 1.13}
+"""Path → what the example's value is of the scene's [1]."""
+
+LOW, HIGH = 0.6, 1.6
+"""Bounds in the command that finds the values again, in parts of the scene's [1]."""
 
 DESCRIPTION = """\
 Simulates a robot that a drive magnet passes once, adds the noise, lost points and outliers of a tracked
-film, and writes them as DeepLabCut would. Stiffness and static friction differ from the preset's, unless
+film, and writes them as DeepLabCut would. Stiffness and static friction differ from the scene's, unless
 --set says otherwise; magworm identify should find them again.
 """
 
@@ -47,8 +53,13 @@ def run(parsed: argparse.Namespace) -> None:
     """
     if parsed.file.exists():
         raise ProblemError(f"file is {str(parsed.file)!r}, which exists; allowed: a new one")
-    values = {**EXAMPLE, **set_values(parsed.set), "drive.motion": constant_drive(parsed)}
-    scene = edited_scene(load_scene(parsed.scene), values, "--set")
+    base = load_scene(parsed.scene)
+    numbers = scene_numbers(base)
+    if STATIC not in numbers:
+        raise ProblemError(f"scene is {parsed.scene!r}, which has no ground; allowed: one with a ground")
+    truth = {path: float(f"{factor * numbers[path]:.3g}") for path, factor in TRUTH.items()}
+    values = {**truth, **set_values(parsed.set), "drive.motion": constant_drive(parsed)}
+    scene = edited_scene(base, values, "--set")
     camera = Camera(parsed.metres_per_pixel, parsed.frames_per_second)
     middle = ["middle"] if scene.magnets == 3 else [f"middle{at}" for at in range(1, scene.magnets - 1)]
     parts = ["head", *middle, "tail"][: scene.magnets]
@@ -58,13 +69,21 @@ def run(parsed: argparse.Namespace) -> None:
         )
     except (ValueError, OSError) as error:
         raise ProblemError(str(error)) from error
-    print(
-        f"{parsed.file}: {', '.join(f'{path} = {values[path]:g}' for path in EXAMPLE)}; to find them again:"
-    )
-    edits = " ".join(f"--set {path} {shlex.quote(text)}" for path, text in parsed.set if path not in EXAMPLE)
-    print(
-        f"magworm identify --scene {parsed.scene} --tracks {parsed.file} "
-        f"--metres-per-pixel {parsed.metres_per_pixel:g} --frames-per-second {parsed.frames_per_second:g} "
-        f"--magnets {' '.join(parts)} {BOUNDS} {edits + ' ' if edits else ''}--drive-x {parsed.drive_x:g} "
-        f"--drive-y {parsed.drive_y:g} --drive-speed {parsed.drive_speed:g} --out runs/fit"
-    )
+    print(f"{parsed.file}: {', '.join(f'{path} = {values[path]:g}' for path in TRUTH)}; to find them again:")
+    print(_command(parsed, parts, numbers))
+
+
+def _command(parsed: argparse.Namespace, parts: list[str], numbers: dict[str, float]) -> str:
+    """The command that finds the values again."""
+    words = ["magworm", "identify", "--scene", parsed.scene, "--tracks", str(parsed.file)]
+    words += ["--metres-per-pixel", f"{parsed.metres_per_pixel:g}"]
+    words += ["--frames-per-second", f"{parsed.frames_per_second:g}", "--magnets", *parts]
+    for path in TRUTH:
+        low = max(LOW * numbers[path], numbers[DYNAMIC] if path == STATIC else 0.0)
+        words += ["--fit", path, f"{low:.3g}", f"{HIGH * numbers[path]:.3g}"]
+    for path, text in parsed.set:
+        if path not in TRUTH:
+            words += ["--set", path, text]
+    words += ["--drive-x", f"{parsed.drive_x:g}", "--drive-y", f"{parsed.drive_y:g}"]
+    words += ["--drive-speed", f"{parsed.drive_speed:g}", "--out", "runs/fit"]
+    return shlex.join(words)

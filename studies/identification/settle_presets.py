@@ -42,7 +42,9 @@ DIGITS = 4
 
 def main() -> None:
     """Chooses and writes."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("problem", choices=sorted(PRESETS))
     parser.add_argument("--runs", type=Path, default=Path("runs/identify"), help="folder of the runs")
     parser.add_argument("--candidates", type=int, default=200, help="how many of the best are measured again")
