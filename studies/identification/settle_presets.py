@@ -1,4 +1,4 @@
-"""Settles the values of the presets: of the candidates that fit, the one that owes least to its discretisation.
+"""Settles the values of the presets: of the candidates that fit, the one that depends least on step and mesh.
 
 An identification leaves many candidates that meet the targets about as well. Stick and slip make some of them
 change their stride when step or mesh are refined. This takes the best candidates of a run of ``magworm
