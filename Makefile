@@ -21,7 +21,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo validate paper test bench wheel lint format docs clean install \
+.PHONY: help demo validate paper identify test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -37,6 +37,14 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 	$(VENV_PYTHON) -m studies.paper
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
+
+identify: install-test  ## identify the presets again, half an hour: docs/identification/, rust/magworm/scenes/
+	for problem in paper-3 paper-3-experiment; do \
+		$(dir $(VENV_PYTHON))magworm identify studies/identification/$$problem.toml \
+			--out runs/identify/$$problem && \
+		$(VENV_PYTHON) studies/identification/settle_presets.py $$problem && \
+		$(MAKE) install || exit 1; \
+	done
 
 ##@ Parts
 

@@ -7,6 +7,8 @@ the one with the least loss of all of them together into the preset files.
 
     magworm identify studies/identification/paper-3.toml --out runs/identify/paper-3
     python studies/identification/settle_presets.py paper-3
+
+The report of the run goes to docs/identification/. ``make identify`` does all of it for all presets.
 """
 
 import argparse
@@ -21,7 +23,9 @@ from magworm_gym.identification import Problem, read_problem
 from magworm_gym.identification.evaluation import Evaluator
 
 HERE = Path(__file__).parent
-SCENES = HERE.parents[1] / "rust/magworm/scenes"
+ROOT = HERE.parents[1]
+SCENES = ROOT / "rust/magworm/scenes"
+REPORTS = ROOT / "docs/identification"
 
 PRESETS = {
     "paper-3": ("paper-3", "paper-4", "paper-5", "belt-125"),
@@ -32,6 +36,7 @@ PRESETS = {
 REFINEMENTS: tuple[dict[str, Any], ...] = (
     {"solver.step_s": 0.0005},
     {"solver.step_s": 0.0001},
+    {"solver.step_s": 0.00002},
     {"solver.step_s": 0.0005, "body.elements_per_bridge": 16, "body.elements_per_foot_end": 4},
 )
 """Steps and meshes with which a candidate has to fit too."""
@@ -47,18 +52,39 @@ def main() -> None:
     )
     parser.add_argument("problem", choices=sorted(PRESETS))
     parser.add_argument("--runs", type=Path, default=Path("runs/identify"), help="folder of the runs")
-    parser.add_argument("--candidates", type=int, default=200, help="how many of the best are measured again")
+    parser.add_argument("--candidates", type=int, default=60, help="how many of the best are measured again")
     arguments = parser.parse_args()
     problem = read_problem(HERE / f"{arguments.problem}.toml")
-    with np.load(arguments.runs / arguments.problem / "candidates.npz") as kept:
+    run = arguments.runs / arguments.problem
+    with np.load(run / "candidates.npz") as kept:
         units = kept["units"][np.argsort(kept["losses"], kind="stable")[: arguments.candidates]]
     losses = refined_losses(problem, units)
     best = int(losses.sum(axis=1).argmin())
-    print(f"candidate {best + 1} of {len(units)}; losses as identified and refined: {losses[best].round(2)}")
     values = rounded(problem.space.scene_values(units[best]))
+    choice = words(best, losses[best], values)
+    print(choice)
+    report = (run / "report.md").read_text(encoding="utf-8")
+    REPORTS.mkdir(exist_ok=True)
+    (REPORTS / f"{arguments.problem}.md").write_text(
+        report.replace("# Identification\n", f"# Identification of `{arguments.problem}`\n\n{choice}\n", 1),
+        encoding="utf-8",
+    )
     for name in PRESETS[arguments.problem]:
         write_values(SCENES / f"{name}.toml", values)
         print(f"{name}: {len(values)} values written")
+
+
+def words(rank: int, losses: NDArray[np.float64], values: dict[str, float]) -> str:
+    """The choice in words, for the report."""
+    finer = "; ".join(
+        f"{loss:.3g} with {', '.join(f'`{path}` = {value:g}' for path, value in refinement.items())}"
+        for loss, refinement in zip(losses[1:], REFINEMENTS, strict=True)
+    )
+    chosen = ", ".join(f"`{path}` = {value:g}" for path, value in values.items())
+    return (
+        f"The presets have the candidate with rank {rank + 1} of the losses, chosen with finer steps and meshes too: "
+        f"{losses[0]:.3g} as identified; {finer}.\n\nThe presets' values: {chosen}."
+    )
 
 
 def refined_losses(problem: Problem, units: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -88,6 +88,7 @@ SECTIONS = (
         {
             "lift": "the paper's figure",
             "pass": "the paper's figures",
+            "ablations": "the paper's words",
             "integrators_agree": "the other scheme",
             "stride_converges_in_the_step": "refined step",
             "stride_in_the_mesh": "refined mesh",
