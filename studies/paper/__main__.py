@@ -27,6 +27,7 @@ from studies.paper.figures import save
 from studies.paper.lift import lift_section
 from studies.paper.mirror import mirror_section
 from studies.paper.morphology import morphology_section
+from studies.paper.other_fits import other_fits_section
 from studies.paper.page import IMAGES, overview, page
 from studies.paper.quantity import Quantity
 from studies.paper.section import Section
@@ -41,6 +42,7 @@ EXPERIMENTS: dict[str, Callable[[], Section]] = {
     "displacements": displacements_section,
     "ablations": ablations_section,
     "stride": stride_section,
+    "other-fits": other_fits_section,
     "belts": belts_section,
     "bouncing": bouncing_section,
     "damaged": damaged_section,

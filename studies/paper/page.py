@@ -14,9 +14,12 @@ Written by `make paper`; do not edit. Every experiment of *MagWorm* (Soft Roboti
 [10.1089/soro.2019.0167](https://doi.org/10.1089/soro.2019.0167)) that the planar model can repeat, simulated
 from the presets. The paper's table of parameters is not public: the presets were identified from a few of its
 figures, marked *identification target* below; agreement there shows that the identification worked, not that
-the model is right. *Held back* are figures that were not used; they test the model. *Closed form* tests the
-program. Where the paper uses words, the way they are read stands in brackets. Bands of all figures, and why,
-are in `studies/paper/bands.toml`; `make paper` fails where one is left.
+the model is right. How it was done, and how much those figures leave open, is told in
+[identification/paper-3.md](identification/paper-3.md) and, for the variant of the experiment, in
+[identification/paper-3-experiment.md](identification/paper-3-experiment.md). *Held back* are figures that
+were not used; they test the model. *Closed form* tests the program. Where the paper uses words, the way they
+are read stands in brackets. Bands of all figures, and why, are in `studies/paper/bands.toml`; `make paper`
+fails where one is left.
 """
 
 
