@@ -30,10 +30,13 @@ REPORTS = ROOT / "docs/identification"
 RESTARTS = HERE / "restarts"
 
 PRESETS = {
-    "paper-3": ("paper-3", "paper-4", "paper-5", "belt-125"),
+    "paper-3": ("paper-3", "paper-4", "paper-5", "belt-125", "paper-3-experiment"),
     "paper-3-experiment": ("paper-3-experiment",),
 }
-"""Name of a problem → presets that take its values."""
+"""Name of a problem → presets that take its values; the second changes some of the first's."""
+
+MARKS = {"paper-3": "identified", "paper-3-experiment": "experiment"}
+"""Name of a problem → how a preset marks its values."""
 
 REFINEMENTS: tuple[dict[str, Any], ...] = (
     {"solver.step_s": 0.0005},
@@ -80,7 +83,7 @@ def main() -> None:
         json.dumps(restarts, indent=1) + "\n", encoding="utf-8"
     )
     for name in PRESETS[arguments.problem]:
-        write_values(SCENES / f"{name}.toml", values)
+        write_values(SCENES / f"{name}.toml", values, MARKS[arguments.problem])
         print(f"{name}: {len(values)} values written")
 
 
@@ -92,7 +95,7 @@ def words(rank: int, losses: NDArray[np.float64], values: dict[str, float]) -> s
     )
     chosen = ", ".join(f"`{path}` = {value:g}" for path, value in values.items())
     return (
-        f"The presets have the candidate with rank {rank + 1} of the losses, chosen with finer steps and meshes too: "
+        f"The presets have candidate {rank + 1}, chosen with finer steps and meshes too. Its loss is "
         f"{losses[0]:.3g} as identified; {finer}.\n\nThe presets' values: {chosen}."
     )
 
@@ -136,24 +139,24 @@ def rounded(values: dict[str, float]) -> dict[str, float]:
     return {path: float(f"{value:.{DIGITS}g}") for path, value in values.items()}
 
 
-def write_values(path: Path, values: dict[str, float]) -> None:
-    """Replaces numbers in a scene file and marks them as identified; all else stays as it is."""
+def write_values(path: Path, values: dict[str, float], mark: str) -> None:
+    """Replaces numbers in a scene file and marks them; all else stays as it is."""
     lines, table = [], ""
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith("["):
             table = line.split("]")[0].strip("[ ")
         field = re.match(r"(\w+) = ", line)
         value = values.get(f"{table}.{field.group(1)}") if field else None
-        lines.append(line if field is None or value is None else marked(field.group(1), value, line))
+        lines.append(line if field is None or value is None else marked(field.group(1), value, line, mark))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def marked(field: str, value: float, line: str) -> str:
+def marked(field: str, value: float, line: str, mark: str) -> str:
     """A line of a scene file with another value; what its comment adds after a colon stays."""
     remark = re.search(r"#[^:]*:(.*)", line)
-    comment = "# identified" + (f":{remark.group(1)}" if remark else "")
+    comment = f"# {mark}" + (f":{remark.group(1)}" if remark else "")
     number = f"{value:g}" if 1e-3 <= abs(value) < 1e5 else f"{value:.{DIGITS}g}"
-    return f"{f'{field} = {number}':<32}{comment}"
+    return f"{f'{field} = {number} ':<32}{comment}"
 
 
 if __name__ == "__main__":
