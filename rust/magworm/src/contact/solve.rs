@@ -14,6 +14,8 @@ use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
 const SETTLED: f64 = 1e-5;
+/// The same, beyond which friction is no longer that of the point: half of it.
+const FAR: f64 = 0.5;
 /// Passes in which all points may change their mode at once. Points that share a foot may then take turns
 /// without end, so from here on one point changes in a pass, each in its turn.
 const PATIENCE: usize = 10;
@@ -63,23 +65,53 @@ pub fn solve<const W: usize, I: Isa<W>>(
     block: &mut Block<W>,
 ) {
     let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
-    let mut refactor = true;
+    let (mut refactor, mut wild) = (true, done);
     for pass in 0..model.scene.solver.contact_iterations {
-        if refactor {
-            assemble_matrix(isa, model, ground, block);
-            model.band.factor(isa, &mut block.factor);
-            block.counters.factorisations += 1;
-        }
-        assemble_right(isa, model, ground, block);
-        model.band.solve(isa, &block.factor, &mut block.solution);
-        block.counters.solves += 1;
-        accept(isa, block, done);
+        solve_assumed(isa, model, ground, block, done, refactor);
         let change = update_modes(isa, model, ground, block, done, pass);
         done = done | !(change.modes | change.impulses);
         refactor = (change.modes & !done).any();
+        wild = change.wild & !done;
         if done.all() {
-            break;
+            return;
         }
+    }
+    if wild.any() {
+        stick(isa, model, block, !wild);
+        solve_assumed(isa, model, ground, block, !wild, true);
+        update_modes(isa, model, ground, block, !wild, 0);
+    }
+}
+
+/// Solves under the modes as they are assumed.
+#[inline(always)]
+fn solve_assumed<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    done: I::M,
+    refactor: bool,
+) {
+    if refactor {
+        assemble_matrix(isa, model, ground, block);
+        model.band.factor(isa, &mut block.factor);
+        block.counters.factorisations += 1;
+    }
+    assemble_right(isa, model, ground, block);
+    model.band.solve(isa, &block.factor, &mut block.solution);
+    block.counters.solves += 1;
+    accept(isa, block, done);
+}
+
+/// Where the passes have run out and friction reckons with an impulse that grows from pass to pass: what is
+/// closed sticks in this step. That is a projection, which only takes energy.
+#[inline(always)]
+fn stick<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, done: I::M) {
+    let (open, stuck) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
+    for c in 0..model.contacts.len() {
+        let mode = isa.load(&block.mode[c]);
+        store_unless(isa, done, I::F::select(mode.eq(open), open, stuck), &mut block.mode[c]);
     }
 }
 
@@ -87,6 +119,8 @@ pub fn solve<const W: usize, I: Isa<W>>(
 struct Change<M> {
     modes: M,
     impulses: M,
+    /// Friction of a sliding point is far from its normal impulse, or drives it.
+    wild: M,
 }
 
 #[inline(always)]
@@ -180,7 +214,7 @@ fn update_modes<const W: usize, I: Isa<W>>(
 ) -> Change<I::M> {
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
-    let mut change = Change { modes: never, impulses: never };
+    let mut change = Change { modes: never, impulses: never, wild: never };
     let (mut normal_row, mut tangential_row) = ([zero; SLOTS], [zero; SLOTS]);
     for (c, contact) in model.contacts.iter().enumerate() {
         jacobian(isa, block, c, 0, &mut normal_row);
@@ -205,6 +239,10 @@ fn update_modes<const W: usize, I: Isa<W>>(
         let unsettled = sliding & drift.gt(after.normal * SETTLED + ground.negligible);
         change.modes = change.modes | (moved & !done);
         change.impulses = change.impulses | (unsettled & !done);
+        let slid = point.mode.abs().eq(isa.splat(Mode::SLIDE_FORWARD));
+        let far = drift.gt(point.reckoned * FAR + ground.negligible);
+        let driven = (u_t * point.mode).lt(-ground.transition_speed);
+        change.wild = change.wild | (slid & (far | driven));
         if pass < PATIENCE || pass % model.contacts.len() == c {
             store_unless(isa, done, after.mode, &mut block.mode[c]);
         }

@@ -139,6 +139,11 @@ fn validates_ablations() {
         .note("Way of the third magnet towards the head.");
     case.inside("horizontal force alone", "mm", horizontal, -0.348..=0.348);
     case.inside("torque alone", "mm", torque, 0.0..=f64::INFINITY);
-    case.inside("vertical force alone less torque alone", "mm", vertical - torque, 0.0..=f64::INFINITY);
+    case.inside(
+        "vertical force alone less torque alone",
+        "mm",
+        vertical - torque,
+        0.0..=f64::INFINITY,
+    );
     case.finish();
 }
