@@ -81,9 +81,14 @@ def write_results(sections: Mapping[str, Section], failures: Sequence[str]) -> N
 
 
 def _record(quantity: Quantity) -> dict[str, object]:
-    """A quantity as JSON takes it: an open side of a range is null."""
-    holds = quantity.holds and [side if math.isfinite(side) else None for side in quantity.holds]
-    return {**asdict(quantity), "origin": quantity.origin.value, "holds": holds}
+    """A quantity as JSON takes it: an open side of a range, and what was never reached, are null."""
+    holds = quantity.holds and [_finite(side) for side in quantity.holds]
+    numbers = {"model": _finite(quantity.model), "holds": holds}
+    return {**asdict(quantity), "origin": quantity.origin.value, **numbers}
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def main() -> int:

@@ -16,8 +16,9 @@ use crate::state::Block;
 const SETTLED: f64 = 1e-5;
 /// The same, beyond which friction is no longer that of the point: half of it.
 const FAR: f64 = 0.5;
-/// Passes in which all points may change their mode at once. Points that share a foot may then take turns
-/// without end, so from here on one point changes in a pass, each in its turn.
+/// Passes in which points may change their mode in every way. Points that share a foot may then take turns
+/// without end, so from here on a pass changes either what touches or how what touches slides, in turn. That
+/// treats all points alike: a mirrored robot moves as the mirror image.
 const PATIENCE: usize = 10;
 
 /// Friction and penalty of each lane in one step.
@@ -243,9 +244,15 @@ fn update_modes<const W: usize, I: Isa<W>>(
         let far = drift.gt(point.reckoned * FAR + ground.negligible);
         let driven = (u_t * point.mode).lt(-ground.transition_speed);
         change.wild = change.wild | (slid & (far | driven));
-        if pass < PATIENCE || pass % model.contacts.len() == c {
-            store_unless(isa, done, after.mode, &mut block.mode[c]);
-        }
+        let parted = point.mode.eq(isa.splat(Mode::OPEN)) | !closed;
+        let waits = if pass < PATIENCE {
+            never
+        } else if pass % 2 == 0 {
+            parted
+        } else {
+            !parted
+        };
+        store_unless(isa, done | waits, after.mode, &mut block.mode[c]);
         store_unless(isa, done, after.normal, &mut block.normal[c]);
         store_unless(isa, done, after.tangential, &mut block.tangential[c]);
         let next = extrapolate(isa, block, c, point.reckoned, after.normal);
@@ -257,8 +264,8 @@ fn update_modes<const W: usize, I: Isa<W>>(
 /// The normal impulse to reckon with in the next pass.
 ///
 /// For fixed modes the impulse found is linear in the impulse reckoned with, so a secant through
-/// two passes finds where both agree (Aitken's Δ²). Where the secant is steep or unknown, the impulse
-/// found is taken.
+/// two passes finds where both agree (Aitken's Δ²). Where the impulse found grows about as fast as the one
+/// reckoned with, or faster, there is no such place nearby and the impulse found is taken.
 #[inline(always)]
 fn extrapolate<const W: usize, I: Isa<W>>(
     isa: I,
@@ -273,7 +280,7 @@ fn extrapolate<const W: usize, I: Isa<W>>(
     isa.store(found, &mut block.earlier[2 * c + 1]);
     let run = reckoned - earlier_reckoned;
     let rise = found - earlier_found;
-    let gentle = rise.abs().lt(run.abs() * 0.8);
+    let gentle = (rise * run).lt(run * run * 0.8);
     let agreed =
         found + (found - reckoned) * rise / I::F::select(gentle, run - rise, isa.splat(1.0));
     I::F::select(gentle & agreed.gt(isa.splat(0.0)), agreed, found)
