@@ -41,8 +41,8 @@ class Band:
     preset: str | None = None
 
     def holds(self, value: float) -> bool:
-        """Whether a value is inside; one that is not finite never is."""
-        return math.isfinite(value) and self.low <= value <= self.high
+        """Whether a value is inside; an infinite one only where the band says that it is never reached."""
+        return self.low == value if math.isinf(value) else self.low <= value <= self.high
 
 
 @dataclass(frozen=True)
@@ -123,4 +123,7 @@ def rewritten(text: str, quantities: Sequence[Quantity]) -> str:
 def _written(quantity: Quantity, margin: float) -> str:
     low, high = (f"{quantity.model + sign * margin:.4g}" for sign in (-1.0, 1.0))
     why = f"the model's {quantity.model:.4g} ± {margin:.2g}"
+    if math.isinf(quantity.model):
+        low = high = f"{quantity.model}"
+        why = "never reached by the model"
     return f'\n[bands.{quantity.key}]\nlow = {low}\nhigh = {high}\nwhy = "{why}"\n'

@@ -28,7 +28,7 @@ class Quantity:
         key: Name in ``bands.toml``, section first: ``pass.peak``.
         what: What it is, in words.
         unit: Unit of all its numbers; empty for a ratio or a count.
-        model: What the model gives.
+        model: What the model gives; infinite where it never gets there.
         origin: What the comparison proves.
         paper: The paper's number; None where it has none.
         claim: What the paper says in words, and how that is read here.
@@ -73,6 +73,8 @@ def number(value: float, digits: int) -> str:
 
 def model_text(quantity: Quantity) -> str:
     """The model's number with unit and spread."""
+    if math.isinf(quantity.model):
+        return "never"
     text = number(quantity.model, quantity.digits)
     if quantity.spread > 0.0:
         text += f" ± {number(quantity.spread, quantity.digits)}"
@@ -90,7 +92,7 @@ def paper_text(quantity: Quantity) -> str:
 def error_text(quantity: Quantity) -> str:
     """The error in percent, signed."""
     error = quantity.error
-    if error is None or quantity.origin is Origin.CLOSED_FORM:
+    if error is None or math.isinf(error) or quantity.origin is Origin.CLOSED_FORM:
         return "–"
     return f"{'+' if error >= 0.0 else '−'}{100.0 * abs(error):.1f} %"
 
@@ -115,8 +117,10 @@ def _comparison(quantity: Quantity, inside: bool) -> str:
     if quantity.holds is not None:
         return "as the paper says" if quantity.as_claimed else "**contradicts the paper**"
     error = quantity.error
-    if error is None or not math.isfinite(error):
+    if error is None:
         return "no figure in the paper"
+    if math.isinf(error):
+        return "**disagrees**"
     if abs(error) <= AGREES:
         return "agrees"
     side = "high" if error > 0.0 else "low"
