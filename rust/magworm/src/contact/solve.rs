@@ -247,7 +247,7 @@ fn update_modes<const W: usize, I: Isa<W>>(
         let parted = point.mode.eq(isa.splat(Mode::OPEN)) | !closed;
         let waits = if pass < PATIENCE {
             never
-        } else if pass % 2 == 0 {
+        } else if pass.is_multiple_of(2) {
             parted
         } else {
             !parted
