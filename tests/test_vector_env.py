@@ -128,7 +128,7 @@ def test_time_limit_is_told_from_breaking() -> None:
 def test_a_worm_that_is_torn_apart_truncates_alone() -> None:
     env, calm = crawl(max_episode_steps=50), crawl(max_episode_steps=50)
     calm.reset(seed=0)
-    env.reset(seed=0, options={"parameters": {"remanence": [1.0, 1000.0, 1.0]}})
+    env.reset(seed=0, options={"parameters": {"stiffness": [1.0, 1e-3, 1.0], "remanence": [1.0, 1e3, 1.0]}})
     actions = random_actions(env, 1)[0]
     observations, rewards, _, truncated, infos = env.step(actions)
     expected = calm.step(actions)
