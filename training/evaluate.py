@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import command_line
-from atomic_files import write_json, write_text
+from atomic_files import write_json
 from command_line import Parser, UsageError, positive
 from evaluation_settings import Budget, read_budget
 from train import SCENE, SETTINGS, train
 from training_settings import TrainingSettings, read_saved_settings
 
 from magworm_gym import Scene
+from magworm_gym.atomic_files import write_text
 
 if TYPE_CHECKING:
     from comparison import Comparison

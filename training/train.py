@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import command_line
-from atomic_files import write_json, write_text
+from atomic_files import write_json
 from command_line import Parser, UsageError, positive
 from training_settings import (
     ALGORITHMS,
@@ -16,6 +16,7 @@ from training_settings import (
 )
 
 from magworm_gym import Scene, load_scene
+from magworm_gym.atomic_files import write_text
 
 SETTINGS = "settings.json"
 SCENE = "scene.toml"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
-from magworm_gym.identification.atomic import write_text
+from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.camera import Camera
 from magworm_gym.recording import record_scenes
 

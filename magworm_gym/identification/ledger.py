@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.identification.atomic import replace_file
+from magworm_gym.atomic_files import replace_file
 from magworm_gym.identification.mistake import ProblemError
 
 Floats = NDArray[np.float64]

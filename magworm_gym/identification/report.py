@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from magworm_gym import __version__
-from magworm_gym.identification.atomic import write_text
+from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.combinations import in_words
 from magworm_gym.identification.findings import Finding
 from magworm_gym.identification.identifiability import STEPS
