@@ -150,7 +150,7 @@ proptest! {
 
     #[test]
     fn random_valid_scenes_run(
-        scene in scene_strategy::scene(24).prop_map(short),
+        scene in scene_strategy::scene(24, 2).prop_map(short),
         extremes in extremes(),
         seed: u64,
     ) {
@@ -161,7 +161,7 @@ proptest! {
 
     #[test]
     fn scenes_spoiled_in_code_are_refused_or_run(
-        mut scene in scene_strategy::scene(16).prop_map(short),
+        mut scene in scene_strategy::scene(16, 2).prop_map(short),
         number in prop_oneof![prop::num::f64::ANY, -1.0..1.0, Just(0.0)],
         place in 0..12_usize,
         seed: u64,
@@ -179,7 +179,7 @@ proptest! {
 
     #[test]
     fn large_random_scenes_run(
-        scene in scene_strategy::scene(300).prop_map(short),
+        scene in scene_strategy::scene(300, 2).prop_map(short),
         extremes in extremes(),
         seed: u64,
     ) {

@@ -22,6 +22,13 @@ fn refuses_numbers_out_of_range_with_their_unit() {
         ("body.elements_per_bridge", "0", "is 0; allowed: a whole number from 1 to 999"),
         ("body.first_polarity", "0", "is 0; allowed: 1 or -1"),
         ("material.damping_time_s", "5", "is 5 s; allowed: 0 to 1 s"),
+        ("dimensions", "4", "is 4; allowed: a whole number from 2 to 3"),
+        ("material.poisson_ratio", "0.51", "is 0.51; allowed: 0 to 0.5"),
+        ("drive.motion.lateral_reach_m", "-0.01", "is -0.01 m; allowed: 0 to 10 m"),
+        ("drive.motion.yaw_reach_deg", "181", "is 181°; allowed: 0 to 180°"),
+        ("drive.motion.yaw_speed_deg_s", "0", "is 0 °/s; allowed: 0.001 to 1e5 °/s"),
+        ("drive.motion.yaw_acceleration_deg_s2", "0", "is 0 °/s²; allowed: 0.001 to 1e8 °/s²"),
+        ("start.yaw_deg", "-361", "is -361°; allowed: -360 to 360°"),
         ("material.density_kg_m3", "0", "is 0 kg/m³; allowed: 1 to 1e5 kg/m³"),
         ("magnet.remanence_t", "-1.22", "is -1.22 T; allowed: 0 to 10 T"),
         ("ground.static_friction", "11", "is 11; allowed: 0 to 10"),
@@ -210,6 +217,57 @@ fn refuses_waypoints_out_of_order() {
         ("[0, nan]", "[0, 0]", "[0, 0]", "time_s[1] is NaN s; allowed: 0 to 1e5 s"),
     ] {
         assert_eq!(waypoints(time, x, y).unwrap_err(), format!("drive.motion.{sentence}"));
+    }
+}
+
+#[test]
+fn refuses_what_leaves_the_plane_in_two_dimensions() {
+    let constant = "{ kind = \"constant\", x_m = 0, y_m = -0.03, speed_m_s = 0.1, ";
+    let waypoints = "{ kind = \"waypoints\", time_s = [0, 1], x_m = [0, 0], y_m = [0, 0], ";
+    let motion = |start: &str, more: &str| format!("{start}{more} }}");
+    for (path, value, sentence) in [
+        ("start.z_m", "-0.1".into(), "start.z_m is -0.1 m"),
+        ("start.yaw_deg", "90".into(), "start.yaw_deg is 90°"),
+        ("field", "{ x_t = 0, y_t = 0, z_t = 0.01 }".into(), "field.z_t is 0.01 T"),
+        ("drive.motion.lateral_reach_m", "0.004".into(), "drive.motion.lateral_reach_m is 0.004 m"),
+        ("drive.motion.yaw_reach_deg", "5".into(), "drive.motion.yaw_reach_deg is 5°"),
+        ("drive.motion", motion(constant, "z_m = 0.004"), "drive.motion.z_m is 0.004 m"),
+        ("drive.motion", motion(constant, "yaw_deg = -9"), "drive.motion.yaw_deg is -9°"),
+        ("drive.motion", motion(waypoints, "z_m = [0, 0.1]"), "drive.motion.z_m[1] is 0.1 m"),
+        ("drive.motion", motion(waypoints, "yaw_deg = [3, 0]"), "drive.motion.yaw_deg[0] is 3°"),
+    ] {
+        refuses("example", path, &value, &format!("{sentence}; allowed: 0 where dimensions = 2"));
+        let space = [("dimensions", Some("3")), (path, Some(&value))];
+        assert_eq!(edited("example", &space).map(|scene| scene.dimensions), Ok(3));
+    }
+    let still = motion(waypoints, "z_m = [0, -0.0], yaw_deg = [0, 0]");
+    assert!(edited("example", &[("drive.motion", Some(&still))]).is_ok());
+}
+
+#[test]
+fn refuses_waypoints_in_space_as_in_the_plane() {
+    let waypoints = |z: &str, yaw: &str| {
+        let motion = format!(
+            "{{ kind = \"waypoints\", time_s = [0, 0.1], x_m = [0, 0], y_m = [0, 0], \
+             z_m = {z}, yaw_deg = {yaw} }}"
+        );
+        edited("example", &[("dimensions", Some("3")), ("drive.motion", Some(&motion))])
+    };
+    assert!(waypoints("[]", "[0, 1000]").is_ok());
+    assert!(waypoints("[0.5, -0.5]", "[]").is_ok());
+    let lists = "allowed: a list of 2, as drive.motion.time_s, or an empty one";
+    for (z, yaw, sentence) in [
+        ("[0]", "[]", format!("z_m is a list of 1; {lists}")),
+        ("[]", "[0, 0, 0]", format!("yaw_deg is a list of 3; {lists}")),
+        ("[0, 2]", "[]", "z_m[1] is 2 m; allowed: -1 to 1 m: at most 10 m/s".into()),
+        (
+            "[]",
+            "[10, -1000]",
+            "yaw_deg[1] is -1000°; allowed: -990 to 1010°: at most 10000 °/s".into(),
+        ),
+        ("[]", "[0, 36001]", "yaw_deg[1] is 36001°; allowed: -36000 to 36000°".into()),
+    ] {
+        assert_eq!(waypoints(z, yaw).unwrap_err(), format!("drive.motion.{sentence}"));
     }
 }
 

@@ -101,6 +101,11 @@ fn finite(value: &Value) -> bool {
     }
 }
 
+/// Scenes of the plane and of space.
+fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
+    prop_oneof![scene_strategy::scene(most_nodes, 2), scene_strategy::scene(most_nodes, 3)]
+}
+
 fn preset() -> impl Strategy<Value = Scene> {
     prop::sample::select(PRESETS).prop_map(|name| Scene::preset(name).expect("a preset"))
 }
@@ -109,13 +114,13 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 10_000, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_valid_scenes_validate_and_survive_toml(scene in scene_strategy::scene(1000)) {
+    fn random_valid_scenes_validate_and_survive_toml(scene in scene(1000)) {
         sound(&Ok(scene))?;
     }
 
     #[test]
     fn spoiled_scenes_do_not_panic(
-        scene in prop_oneof![preset(), scene_strategy::scene(50)],
+        scene in prop_oneof![preset(), scene(50)],
         harms in prop::collection::vec((any::<Index>(), harm()), 1..4),
     ) {
         let mut values = Table::try_from(&scene).expect("a scene is TOML");
@@ -135,7 +140,7 @@ proptest! {
     #[test]
     fn random_edits_do_not_panic(
         scene in preset(),
-        donor in scene_strategy::scene(50),
+        donor in scene(50),
         index in any::<Index>(),
         value in prop::option::of(spoiled_value()),
         tail in prop_oneof![Just(String::new()), "\\.[a-z_.]{0,6}"],
@@ -175,10 +180,10 @@ proptest! {
 
     #[test]
     fn scenes_spoiled_in_code_do_not_panic(
-        mut scene in scene_strategy::scene(50),
+        mut scene in scene(50),
         number in prop::num::f64::ANY,
         count in any::<usize>(),
-        place in 0..8,
+        place in 0..10,
     ) {
         match place {
             0 => scene.gravity_m_s2 = number,
@@ -188,6 +193,8 @@ proptest! {
             4 => scene.solver.step_s = number,
             5 => scene.magnet = None,
             6 => scene.start.height_m = number,
+            7 => scene.start.yaw_deg = number,
+            8 => scene.dimensions = count,
             _ => match &mut scene.body {
                 Body::Worm(worm) => worm.removed.push(count),
                 Body::Rod(rod) => rod.elements = count,

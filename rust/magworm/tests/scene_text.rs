@@ -46,7 +46,7 @@ fn refuses_wrong_types() {
             "1",
             "is 1; allowed: a list of at most 32, each a whole number from 0 to 31",
         ),
-        ("field", "1.0", "is 1; allowed: a table with x_t, y_t"),
+        ("field", "1.0", "is 1; allowed: a table with x_t, y_t, z_t"),
         ("body", "3", "is 3; allowed: a table whose kind is one of worm, rod"),
     ] {
         refuses("example", path, value, &format!("{path} {rest}"));
@@ -87,7 +87,7 @@ fn text_errors_name_the_line() {
     ] {
         refuses_text(old, new, anchor, sentence);
     }
-    let table = "a table with youngs_modulus_pa, density_kg_m3, damping_time_s";
+    let table = "a table with youngs_modulus_pa, density_kg_m3, damping_time_s, poisson_ratio";
     let text = Scene::preset_text("cantilever").unwrap().replace("[material]", "[start]");
     let error = Scene::from_toml(&text).unwrap_err();
     assert_eq!(error.to_string(), format!("material is missing; allowed: {table}"));
@@ -98,7 +98,7 @@ fn unknown_fields_are_refused_everywhere() {
     for (path, rest) in [
         (
             "colour",
-            "the scene has: name, gravity_m_s2, body, material, magnet, ground, drive, field, magnetic_terms, start, solver, control, reset",
+            "the scene has: name, gravity_m_s2, dimensions, body, material, magnet, ground, drive, field, magnetic_terms, start, solver, control, reset",
         ),
         (
             "body.colour",
@@ -111,7 +111,7 @@ fn unknown_fields_are_refused_everywhere() {
         ("drive.arrangement.count", "drive.arrangement has: kind"),
         (
             "drive.motion.y_m",
-            "drive.motion has: kind, reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2",
+            "drive.motion has: kind, reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2, lateral_reach_m, yaw_reach_deg, yaw_speed_deg_s, yaw_acceleration_deg_s2",
         ),
         ("gravity_m_s2.x", "gravity_m_s2 has: no fields"),
         ("reset.vary.0", "reset.vary has: no fields"),
@@ -125,7 +125,7 @@ fn unknown_fields_are_refused_everywhere() {
         (
             "kind = \"controlled\"",
             "drive.motion",
-            "kind, reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2",
+            "kind, reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2, lateral_reach_m, yaw_reach_deg, yaw_speed_deg_s, yaw_acceleration_deg_s2",
         ),
         (
             "[solver]",
@@ -153,7 +153,8 @@ fn values_replace_tables_and_remove_them() {
     let motion = "{ kind = \"constant\", x_m = -0.05, y_m = -0.022, speed_m_s = 0.1 }";
     let scene = edited("example", &[("drive.motion", Some(motion)), ("ground", None)]).unwrap();
     assert_eq!(scene.ground, None);
-    let constant = Motion::Constant { x_m: -0.05, y_m: -0.022, speed_m_s: 0.1 };
+    let constant =
+        Motion::Constant { x_m: -0.05, y_m: -0.022, speed_m_s: 0.1, z_m: 0.0, yaw_deg: 0.0 };
     assert_eq!(scene.drive.unwrap().motion, constant);
 
     let field = [("field.x_t", Some("0.01")), ("field.y_t", Some("0"))];
@@ -183,6 +184,16 @@ fn deep_text_is_refused_without_exhausting_the_stack() {
     for text in ["a.".repeat(100_000) + "a = 1", "a = ".to_owned() + &"[".repeat(100_000)] {
         assert!(Scene::from_toml(&text).is_err());
     }
+}
+
+#[test]
+fn scenes_are_planar_unless_they_say_otherwise() {
+    let scene = Scene::from_toml(EXAMPLE).unwrap();
+    assert_eq!((scene.dimensions, scene.material.poisson_ratio), (2, 0.5));
+    assert_eq!((scene.start.z_m, scene.start.yaw_deg), (0.0, 0.0));
+    let Motion::Controlled(limits) = scene.drive.unwrap().motion else { panic!("a stage") };
+    assert_eq!((limits.lateral_reach_m, limits.yaw_reach_deg), (0.0, 0.0));
+    assert_eq!((limits.yaw_speed_deg_s, limits.yaw_acceleration_deg_s2), (180.0, 3600.0));
 }
 
 /// Whatever the grammar calls optional has a default in serde too: no removal ends in serde's words.

@@ -53,10 +53,10 @@ impl DriveModel {
                 speed_m_s: limits.speed_m_s,
                 acceleration_m_s2: limits.acceleration_m_s2,
             }),
-            Motion::Constant { x_m, y_m, speed_m_s } => {
+            Motion::Constant { x_m, y_m, speed_m_s, .. } => {
                 Path::Constant { start_m: [*x_m, y_m + centre_m], speed_m_s: *speed_m_s }
             }
-            Motion::Waypoints { time_s, x_m, y_m } => Path::Waypoints {
+            Motion::Waypoints { time_s, x_m, y_m, .. } => Path::Waypoints {
                 time_s: time_s.clone(),
                 point_m: x_m.iter().zip(y_m).map(|(x, y)| [*x, y + centre_m]).collect(),
             },

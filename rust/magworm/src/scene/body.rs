@@ -26,7 +26,7 @@ pub struct Worm {
     pub foot_thickness_m: f64,
     /// Thickness of the body between feet [m].
     pub bridge_thickness_m: f64,
-    /// Width of the body, out of the plane [m].
+    /// Width of the body, along z of the rest robot [m].
     pub width_m: f64,
     /// Polarity of the first magnet: 1 attracted by the drive beneath it, −1 repelled. The others alternate.
     #[serde(default = "one")]
@@ -47,9 +47,9 @@ pub struct Worm {
 pub struct Rod {
     /// Length [m].
     pub length_m: f64,
-    /// Width, out of the plane [m].
+    /// Width, along z of the rest rod [m].
     pub width_m: f64,
-    /// Thickness, in the plane [m].
+    /// Thickness, along y of the rest rod [m].
     pub thickness_m: f64,
     /// Number of rod elements; more are added where magnets end.
     pub elements: usize,
@@ -68,7 +68,7 @@ pub enum Clamp {
     /// Free.
     #[default]
     None,
-    /// Position and slope held.
+    /// Position and direction held.
     Head,
 }
 
@@ -93,6 +93,10 @@ pub struct Material {
     /// Kelvin–Voigt retardation time τ [s].
     #[serde(default)]
     pub damping_time_s: f64,
+    /// Poisson's ratio ν; only space needs it, for the shear modulus G = E/(2(1 + ν)) of a twisted
+    /// body. Rubber hardly changes its volume: 0.5.
+    #[serde(default = "incompressible")]
+    pub poisson_ratio: f64,
 }
 
 /// A cuboid permanent magnet of the body, magnetised along its height.
@@ -101,7 +105,7 @@ pub struct Material {
 pub struct Magnet {
     /// Edge along the robot [m].
     pub length_m: f64,
-    /// Edge out of the plane [m].
+    /// Edge along the width [m].
     pub width_m: f64,
     /// Edge along the thickness [m].
     pub height_m: f64,
@@ -113,4 +117,8 @@ pub struct Magnet {
 
 fn one() -> i8 {
     1
+}
+
+fn incompressible() -> f64 {
+    0.5
 }

@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Equal cuboid magnets beneath the ground, axis-aligned, magnetised along +y (their height).
+/// Equal cuboid magnets beneath the ground, magnetised along +y (their height). Their edges lie along
+/// the axes; in space a yaw of the drive turns them about the vertical.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
-    /// Edge along x [m].
+    /// Edge along x at yaw 0 [m].
     pub length_m: f64,
-    /// Edge along z [m].
+    /// Edge along z at yaw 0 [m].
     pub width_m: f64,
     /// Edge along y [m].
     pub height_m: f64,
@@ -42,7 +43,8 @@ pub enum Arrangement {
     /// One magnet on a stage.
     #[default]
     Single,
-    /// Two magnets side by side along x, centred on the stage.
+    /// Two magnets side by side along x, centred on the stage; in space both turn about the stage
+    /// with its yaw.
     Pair {
         /// Distance between their centres [m].
         spacing_m: f64,
@@ -73,6 +75,12 @@ pub enum Motion {
         y_m: f64,
         /// Velocity along x [m/s].
         speed_m_s: f64,
+        /// Position along z [m]; 0 in the plane.
+        #[serde(default)]
+        z_m: f64,
+        /// Yaw [°]; 0 in the plane.
+        #[serde(default)]
+        yaw_deg: f64,
     },
     /// Straight lines between points in time; at rest after the last.
     Waypoints {
@@ -82,6 +90,12 @@ pub enum Motion {
         x_m: Vec<f64>,
         /// Height at each time [m].
         y_m: Vec<f64>,
+        /// Position along z at each time [m]; an empty list is 0 throughout, as in the plane.
+        #[serde(default)]
+        z_m: Vec<f64>,
+        /// Yaw at each time [°]; an empty list is 0 throughout, as in the plane.
+        #[serde(default)]
+        yaw_deg: Vec<f64>,
     },
 }
 
@@ -95,12 +109,24 @@ pub struct StageLimits {
     pub lowest_m: f64,
     /// Greatest height [m].
     pub highest_m: f64,
-    /// Greatest speed of each axis [m/s].
+    /// Greatest speed of each straight axis [m/s].
     #[serde(default = "platform_speed")]
     pub speed_m_s: f64,
-    /// Greatest acceleration of each axis [m/s²].
+    /// Greatest acceleration of each straight axis [m/s²].
     #[serde(default = "stage_acceleration")]
     pub acceleration_m_s2: f64,
+    /// Furthest target to either side of the robot's centre [m]; 0 in the plane.
+    #[serde(default)]
+    pub lateral_reach_m: f64,
+    /// Furthest yaw of the drive from the robot's heading, either way [°]; 0 in the plane.
+    #[serde(default)]
+    pub yaw_reach_deg: f64,
+    /// Greatest speed of yaw [°/s].
+    #[serde(default = "yaw_speed")]
+    pub yaw_speed_deg_s: f64,
+    /// Greatest acceleration of yaw [°/s²].
+    #[serde(default = "yaw_acceleration")]
+    pub yaw_acceleration_deg_s2: f64,
 }
 
 fn platform_speed() -> f64 {
@@ -109,4 +135,12 @@ fn platform_speed() -> f64 {
 
 fn stage_acceleration() -> f64 {
     5.0
+}
+
+fn yaw_speed() -> f64 {
+    180.0
+}
+
+fn yaw_acceleration() -> f64 {
+    3600.0
 }

@@ -11,6 +11,8 @@ pub(super) const MOST_MAGNETS: i64 = 32;
 pub(super) const MOST_DRIVE_MAGNETS: i64 = 16;
 /// Greatest speed of a drive [m/s].
 pub(super) const GREATEST_DRIVE_SPEED_M_S: f64 = 10.0;
+/// Greatest speed of yaw of a drive between waypoints [°/s].
+pub(super) const GREATEST_DRIVE_YAW_SPEED_DEG_S: f64 = 1e4;
 /// Most points in time of a drive that moves between waypoints.
 pub(super) const MOST_WAYPOINTS: usize = 10_000;
 
@@ -21,6 +23,7 @@ const DENSITY: Kind = real("kg/m³", 1.0, 1e5);
 const POSITION: Kind = real("m", -10.0, 10.0);
 const HEIGHT: Kind = real("m", -1.0, 1.0);
 const FLUX_DENSITY: Kind = real("T", -10.0, 10.0);
+const TURN: Kind = real("°", -360.0, 360.0);
 const FRICTION: Kind = real("", 0.0, 10.0);
 const FACTOR: Kind = real("", 1e-3, 1e3);
 const SHORT: Kind = real("s", 1e-7, 0.05);
@@ -29,6 +32,7 @@ pub(super) static SCENE: Table = Table {
     fields: &[
         optional("name", Kind::Text),
         optional("gravity_m_s2", real("m/s²", 0.0, 981.0)),
+        optional("dimensions", whole(2, 3)),
         required("body", Kind::Variants(BODY)),
         required("material", Kind::Table(&MATERIAL)),
         optional("magnet", Kind::Table(&MAGNET)),
@@ -81,6 +85,7 @@ static MATERIAL: Table = Table {
         required("youngs_modulus_pa", real("Pa", 1e2, 1e11)),
         required("density_kg_m3", DENSITY),
         optional("damping_time_s", real("s", 0.0, 1.0)),
+        optional("poisson_ratio", real("", 0.0, 0.5)),
     ],
 };
 
@@ -149,6 +154,10 @@ static STAGE_LIMITS: Table = Table {
         required("highest_m", HEIGHT),
         optional("speed_m_s", real("m/s", 1e-4, GREATEST_DRIVE_SPEED_M_S)),
         optional("acceleration_m_s2", real("m/s²", 1e-3, 1e6)),
+        optional("lateral_reach_m", real("m", 0.0, 10.0)),
+        optional("yaw_reach_deg", real("°", 0.0, 180.0)),
+        optional("yaw_speed_deg_s", real("°/s", 1e-3, 1e5)),
+        optional("yaw_acceleration_deg_s2", real("°/s²", 1e-3, 1e8)),
     ],
 };
 
@@ -157,19 +166,30 @@ static CONSTANT: Table = Table {
         required("x_m", POSITION),
         required("y_m", HEIGHT),
         required("speed_m_s", real("m/s", -GREATEST_DRIVE_SPEED_M_S, GREATEST_DRIVE_SPEED_M_S)),
+        optional("z_m", POSITION),
+        optional("yaw_deg", TURN),
     ],
 };
+
+const YAW: Kind = real("°", -36_000.0, 36_000.0);
 
 static WAYPOINTS: Table = Table {
     fields: &[
         required("time_s", Kind::List { of: &real("s", 0.0, 1e5), most: MOST_WAYPOINTS }),
         required("x_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
         required("y_m", Kind::List { of: &HEIGHT, most: MOST_WAYPOINTS }),
+        optional("z_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
+        optional("yaw_deg", Kind::List { of: &YAW, most: MOST_WAYPOINTS }),
     ],
 };
 
-static FIELD: Table =
-    Table { fields: &[required("x_t", FLUX_DENSITY), required("y_t", FLUX_DENSITY)] };
+static FIELD: Table = Table {
+    fields: &[
+        required("x_t", FLUX_DENSITY),
+        required("y_t", FLUX_DENSITY),
+        optional("z_t", FLUX_DENSITY),
+    ],
+};
 
 static MAGNETIC_TERMS: Table = Table {
     fields: &[
@@ -183,7 +203,9 @@ static START: Table = Table {
     fields: &[
         optional("x_m", POSITION),
         optional("height_m", POSITION),
-        optional("angle_deg", real("°", -360.0, 360.0)),
+        optional("angle_deg", TURN),
+        optional("z_m", POSITION),
+        optional("yaw_deg", TURN),
     ],
 };
 

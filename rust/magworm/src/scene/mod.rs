@@ -3,9 +3,12 @@
 //! A [`Scene`] is plain data in SI units (the unit is the end of each name), read from TOML,
 //! validated once and then compiled into a [`Model`](crate::model::Model).
 //!
-//! Frame: x along the rest robot from head to tail, y up, z = x × y; the ground is y = 0. The head
-//! end of the rest robot stands at x = 0. A drive magnet that moves in +x makes the robot crawl
-//! in −x.
+//! Frame: x along the rest robot from head to tail, y up, z = x × y to the robot's side, the left one
+//! of a robot that looks towards −x; the ground is y = 0. The head end of the rest robot stands at
+//! x = 0 with its midline on z = 0. A drive magnet that moves in +x makes the robot crawl in −x.
+//!
+//! A scene moves in the plane x–y or, with `dimensions = 3`, in space. Yaw is a turn about the
+//! vertical +y, anticlockwise seen from above: it turns x towards −z.
 
 mod body;
 mod check;
@@ -43,6 +46,9 @@ pub struct Scene {
     /// Gravitational acceleration [m/s²]; 0 leaves gravity out.
     #[serde(default = "standard_gravity")]
     pub gravity_m_s2: f64,
+    /// Dimensions of the motion: 2 is the plane x–y, 3 is space.
+    #[serde(default = "plane")]
+    pub dimensions: usize,
     /// The soft body: a worm with feet or a uniform rod.
     pub body: Body,
     /// Its rubber.
@@ -78,4 +84,8 @@ pub struct Scene {
 
 fn standard_gravity() -> f64 {
     9.81
+}
+
+fn plane() -> usize {
+    2
 }

@@ -87,8 +87,13 @@ pub struct Start {
     pub x_m: f64,
     /// Height of the lowest point over the ground [m].
     pub height_m: f64,
-    /// Rotation about the head end, anticlockwise [°].
+    /// Rotation in the plane x–y about the head end, anticlockwise [°].
     pub angle_deg: f64,
+    /// Shift along z [m]; 0 in the plane.
+    pub z_m: f64,
+    /// Rotation about the vertical +y through the head end, after `angle_deg`, anticlockwise seen
+    /// from above [°]; 0 in the plane.
+    pub yaw_deg: f64,
 }
 
 /// What a reset draws at random, from each environment's own seed and episode.

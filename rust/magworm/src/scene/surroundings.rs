@@ -22,7 +22,7 @@ pub struct Ground {
     pub incline_deg: f64,
 }
 
-/// A uniform magnetic flux density in the plane.
+/// A uniform magnetic flux density.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UniformField {
@@ -30,17 +30,20 @@ pub struct UniformField {
     pub x_t: f64,
     /// Component along y [T].
     pub y_t: f64,
+    /// Component along z [T]; 0 in the plane.
+    #[serde(default)]
+    pub z_t: f64,
 }
 
 /// Components of the magnetic wrench that act; the paper's ablations switch single ones off.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MagneticTerms {
-    /// Force along x.
+    /// Force along x; in space along z too.
     pub horizontal_force: bool,
     /// Force along y.
     pub vertical_force: bool,
-    /// Torque about z.
+    /// Torque about z; in space about all axes.
     pub torque: bool,
 }
 

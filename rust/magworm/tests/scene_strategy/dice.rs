@@ -22,6 +22,11 @@ impl Dice {
         (low + self.unit() * (high - low)).clamp(low, high)
     }
 
+    /// A number in [low, high] in space, 0 in the plane.
+    pub fn in_space(&mut self, dimensions: usize, low: f64, high: f64) -> f64 {
+        if dimensions > 2 { self.between(low, high) } else { 0.0 }
+    }
+
     /// A number in [low, high], every decade as likely.
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp().clamp(low, high)

@@ -4,7 +4,7 @@ use magworm::scene::*;
 
 use super::dice::Dice;
 
-pub fn drive(dice: &mut Dice) -> Drive {
+pub fn drive(dice: &mut Dice, dimensions: usize) -> Drive {
     let (length_m, height_m) = (dice.decades(1e-4, 0.5), dice.decades(1e-4, 0.5));
     let reference = dice.one_of(&[Reference::Centre, Reference::Top]);
     let above_m = if reference == Reference::Centre { 0.5 * height_m } else { 0.0 };
@@ -15,7 +15,7 @@ pub fn drive(dice: &mut Dice) -> Drive {
         remanence_t: dice.between(0.0, 10.0),
         reference,
         arrangement: arrangement(dice, length_m),
-        motion: motion(dice, above_m),
+        motion: motion(dice, above_m, dimensions),
     }
 }
 
@@ -33,19 +33,21 @@ fn arrangement(dice: &mut Dice, length_m: f64) -> Arrangement {
     }
 }
 
-fn motion(dice: &mut Dice, above_m: f64) -> Motion {
+fn motion(dice: &mut Dice, above_m: f64, dimensions: usize) -> Motion {
     match dice.one_of(&[0, 1, 2]) {
-        0 => Motion::Controlled(stage(dice, above_m)),
+        0 => Motion::Controlled(stage(dice, above_m, dimensions)),
         1 => Motion::Constant {
             x_m: dice.between(-10.0, 10.0),
             y_m: dice.between(-1.0, 1.0),
             speed_m_s: dice.between(-10.0, 10.0),
+            z_m: dice.in_space(dimensions, -10.0, 10.0),
+            yaw_deg: dice.in_space(dimensions, -360.0, 360.0),
         },
-        _ => waypoints(dice),
+        _ => waypoints(dice, dimensions),
     }
 }
 
-fn stage(dice: &mut Dice, above_m: f64) -> StageLimits {
+fn stage(dice: &mut Dice, above_m: f64, dimensions: usize) -> StageLimits {
     let highest_m = -dice.decades(above_m + 1e-9, 0.9);
     StageLimits {
         reach_m: dice.decades(1e-4, 10.0),
@@ -53,19 +55,49 @@ fn stage(dice: &mut Dice, above_m: f64) -> StageLimits {
         highest_m,
         speed_m_s: dice.decades(1e-4, 10.0),
         acceleration_m_s2: dice.decades(1e-3, 1e6),
+        lateral_reach_m: dice.in_space(dimensions, 0.0, 10.0),
+        yaw_reach_deg: dice.in_space(dimensions, 0.0, 180.0),
+        yaw_speed_deg_s: dice.decades(1e-3, 1e5),
+        yaw_acceleration_deg_s2: dice.decades(1e-3, 1e8),
     }
 }
 
-fn waypoints(dice: &mut Dice) -> Motion {
-    let (mut time_s, mut x_m, mut y_m) = (vec![0.0], vec![], vec![]);
-    x_m.push(dice.between(-10.0, 10.0));
-    y_m.push(dice.between(-1.0, 1.0));
+fn waypoints(dice: &mut Dice, dimensions: usize) -> Motion {
+    let mut time_s = vec![0.0];
     for place in 0..dice.whole(0, 15) {
-        let pause_s = dice.decades(1.1e-6, 10.0);
-        let farthest_m = 9.99 * pause_s;
-        time_s.push(time_s[place] + pause_s);
-        x_m.push((x_m[place] + dice.between(-farthest_m, farthest_m)).clamp(-10.0, 10.0));
-        y_m.push((y_m[place] + dice.between(-farthest_m, farthest_m)).clamp(-1.0, 1.0));
+        time_s.push(time_s[place] + dice.decades(1.1e-6, 10.0));
     }
-    Motion::Waypoints { time_s, x_m, y_m }
+    Motion::Waypoints {
+        x_m: walk(dice, &time_s, 10.0, 9.99),
+        y_m: walk(dice, &time_s, 1.0, 9.99),
+        z_m: walk_in_space(dice, dimensions, &time_s, 10.0, 9.99),
+        yaw_deg: walk_in_space(dice, dimensions, &time_s, 36_000.0, 9.99e3),
+        time_s,
+    }
+}
+
+/// Places from −`farthest` to `farthest`, no faster apart than `fastest`.
+fn walk(dice: &mut Dice, time_s: &[f64], farthest: f64, fastest: f64) -> Vec<f64> {
+    let mut at = vec![dice.between(-farthest, farthest)];
+    for (place, pair) in time_s.windows(2).enumerate() {
+        let reach = fastest * (pair[1] - pair[0]);
+        at.push((at[place] + dice.between(-reach, reach)).clamp(-farthest, farthest));
+    }
+    at
+}
+
+/// A walk in space; in the plane, and now and then in space, one of the two ways to write 0.
+fn walk_in_space(
+    dice: &mut Dice,
+    dimensions: usize,
+    time_s: &[f64],
+    farthest: f64,
+    fastest: f64,
+) -> Vec<f64> {
+    match dice.one_of(&[0, 1, 2, 3]) {
+        0 => vec![],
+        1 => vec![0.0; time_s.len()],
+        _ if dimensions > 2 => walk(dice, time_s, farthest, fastest),
+        _ => vec![],
+    }
 }

@@ -9,23 +9,36 @@ use proptest::prelude::*;
 
 use dice::{Dice, dice};
 
-/// Valid scenes whose bodies have at most `most_nodes` nodes (6 or more, at most 1000).
-pub fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
+/// Valid scenes of 2 or 3 dimensions whose bodies have at most `most_nodes` nodes (6 or more, at
+/// most 1000).
+pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
     let body = dice(24).prop_map(move |mut dice| body::body(&mut dice, most_nodes));
-    let drive = prop::option::of(dice(64).prop_map(|mut dice| drive::drive(&mut dice)));
+    let drive =
+        prop::option::of(dice(96).prop_map(move |mut dice| drive::drive(&mut dice, dimensions)));
     let ground = prop::option::of(dice(5).prop_map(|mut dice| ground(&mut dice)));
-    let field = prop::option::of(dice(2).prop_map(|mut dice| uniform_field(&mut dice)));
+    let field =
+        prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
-    (body, drive, ground, field, time, dice(9), dice(20), ".{0,12}").prop_map(
-        |((body, magnet), drive, ground, field, (solver, mut time), mut rest, mut reset, name)| {
+    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}").prop_map(
+        move |(
+            (body, magnet),
+            drive,
+            ground,
+            field,
+            (solver, mut time),
+            mut rest,
+            mut reset,
+            name,
+        )| {
             Scene {
                 name,
                 gravity_m_s2: rest.between(0.0, 981.0),
+                dimensions,
                 body,
                 material: material(&mut rest),
                 magnet,
                 magnetic_terms: magnetic_terms(&mut rest),
-                start: start(&mut reset, ground.is_some()),
+                start: start(&mut reset, ground.is_some(), dimensions),
                 ground,
                 drive,
                 field,
@@ -42,6 +55,7 @@ fn material(dice: &mut Dice) -> Material {
         youngs_modulus_pa: dice.decades(1e2, 1e11),
         density_kg_m3: dice.decades(1.0, 1e5),
         damping_time_s: if dice.coin() { 0.0 } else { dice.decades(1e-6, 1.0) },
+        poisson_ratio: dice.between(0.0, 0.5),
     }
 }
 
@@ -56,8 +70,12 @@ fn ground(dice: &mut Dice) -> Ground {
     }
 }
 
-fn uniform_field(dice: &mut Dice) -> UniformField {
-    UniformField { x_t: dice.between(-10.0, 10.0), y_t: dice.between(-10.0, 10.0) }
+fn uniform_field(dice: &mut Dice, dimensions: usize) -> UniformField {
+    UniformField {
+        x_t: dice.between(-10.0, 10.0),
+        y_t: dice.between(-10.0, 10.0),
+        z_t: dice.in_space(dimensions, -10.0, 10.0),
+    }
 }
 
 fn magnetic_terms(dice: &mut Dice) -> MagneticTerms {
@@ -68,11 +86,13 @@ fn magnetic_terms(dice: &mut Dice) -> MagneticTerms {
     }
 }
 
-fn start(dice: &mut Dice, on_ground: bool) -> Start {
+fn start(dice: &mut Dice, on_ground: bool, dimensions: usize) -> Start {
     Start {
         x_m: dice.between(-10.0, 10.0),
         height_m: dice.between(if on_ground { 0.0 } else { -10.0 }, 10.0),
         angle_deg: dice.between(-360.0, 360.0),
+        z_m: dice.in_space(dimensions, -10.0, 10.0),
+        yaw_deg: dice.in_space(dimensions, -360.0, 360.0),
     }
 }
 

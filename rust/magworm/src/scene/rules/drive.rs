@@ -1,7 +1,7 @@
 //! Rules of the drive magnets and their motion.
 
 use super::super::error::Problem;
-use super::super::fields::GREATEST_DRIVE_SPEED_M_S;
+use super::super::fields::{GREATEST_DRIVE_SPEED_M_S, GREATEST_DRIVE_YAW_SPEED_DEG_S};
 use super::super::schema::{number, quantity};
 use super::super::{Arrangement, Drive, Motion, Reference, Scene, StageLimits};
 use super::{require, rounded};
@@ -15,7 +15,21 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     match &drive.motion {
         Motion::Controlled(limits) => stage(drive, limits),
         Motion::Constant { .. } => Ok(()),
-        Motion::Waypoints { time_s, x_m, y_m } => waypoints(time_s, x_m, y_m),
+        Motion::Waypoints { time_s, x_m, y_m, z_m, yaw_deg } => {
+            let [x, y, z] = [("x_m", x_m), ("y_m", y_m), ("z_m", z_m)].map(|(name, at)| Axis {
+                field: format!("drive.motion.{name}"),
+                at,
+                unit: "m",
+                fastest: GREATEST_DRIVE_SPEED_M_S,
+            });
+            let yaw = Axis {
+                field: "drive.motion.yaw_deg".into(),
+                at: yaw_deg,
+                unit: "°",
+                fastest: GREATEST_DRIVE_YAW_SPEED_DEG_S,
+            };
+            waypoints(time_s, &[x, y], &[z, yaw])
+        }
     }
 }
 
@@ -44,14 +58,24 @@ fn stage(drive: &Drive, limits: &StageLimits) -> Result<(), Problem> {
     })
 }
 
-fn waypoints(time_s: &[f64], x_m: &[f64], y_m: &[f64]) -> Result<(), Problem> {
+/// One axis of a drive that moves between waypoints.
+struct Axis<'a> {
+    /// Path of its field.
+    field: String,
+    /// Its place at each time [unit].
+    at: &'a [f64],
+    unit: &'static str,
+    /// Greatest speed [unit/s].
+    fastest: f64,
+}
+
+/// `spatial` axes may also have empty lists.
+fn waypoints(time_s: &[f64], planar: &[Axis<'_>], spatial: &[Axis<'_>]) -> Result<(), Problem> {
     let first = time_s.first().map_or("an empty list".into(), |first| quantity(*first, "s"));
     require(time_s.first() == Some(&0.0), "drive.motion.time_s[0]", first, || "0 s".into())?;
-    for (field, length) in [("drive.motion.x_m", x_m.len()), ("drive.motion.y_m", y_m.len())] {
-        require(length == time_s.len(), field, format!("a list of {length}"), || {
-            format!("a list of {}, as drive.motion.time_s", time_s.len())
-        })?;
-    }
+    planar.iter().try_for_each(|axis| as_long(axis, time_s, ""))?;
+    let written = spatial.iter().filter(|axis| !axis.at.is_empty());
+    written.clone().try_for_each(|axis| as_long(axis, time_s, ", or an empty one"))?;
     for (place, pair) in time_s.windows(2).enumerate() {
         let (field, later) =
             (format!("drive.motion.time_s[{}]", place + 1), quantity(pair[1], "s"));
@@ -60,21 +84,29 @@ fn waypoints(time_s: &[f64], x_m: &[f64], y_m: &[f64]) -> Result<(), Problem> {
             format!("{} or more: times rise", quantity(rounded(earliest_s), "s"))
         })?;
     }
-    slow_enough("drive.motion.x_m", time_s, x_m)?;
-    slow_enough("drive.motion.y_m", time_s, y_m)
+    planar.iter().chain(written).try_for_each(|axis| slow_enough(axis, time_s))
 }
 
-fn slow_enough(field: &str, time_s: &[f64], position_m: &[f64]) -> Result<(), Problem> {
-    for (place, (time, position)) in time_s.windows(2).zip(position_m.windows(2)).enumerate() {
-        let reach_m = GREATEST_DRIVE_SPEED_M_S * (time[1] - time[0]);
+fn as_long(axis: &Axis<'_>, time_s: &[f64], or_else: &str) -> Result<(), Problem> {
+    let length = axis.at.len();
+    require(length == time_s.len(), axis.field.as_str(), format!("a list of {length}"), || {
+        format!("a list of {}, as drive.motion.time_s{or_else}", time_s.len())
+    })
+}
+
+fn slow_enough(axis: &Axis<'_>, time_s: &[f64]) -> Result<(), Problem> {
+    let Axis { field, at, unit, fastest } = axis;
+    for (place, (time, at)) in time_s.windows(2).zip(at.windows(2)).enumerate() {
+        let reach = fastest * (time[1] - time[0]);
         require(
-            (position[1] - position[0]).abs() <= reach_m,
+            (at[1] - at[0]).abs() <= reach,
             format!("{field}[{}]", place + 1),
-            quantity(position[1], "m"),
+            quantity(at[1], unit),
             || {
-                let low = number(rounded(position[0] - reach_m));
-                let high = quantity(rounded(position[0] + reach_m), "m");
-                format!("{low} to {high}: at most {GREATEST_DRIVE_SPEED_M_S} m/s")
+                let low = number(rounded(at[0] - reach));
+                let high = quantity(rounded(at[0] + reach), unit);
+                let fastest = quantity(*fastest, &format!("{unit}/s"));
+                format!("{low} to {high}: at most {fastest}")
             },
         )?;
     }

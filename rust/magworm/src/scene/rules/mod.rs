@@ -3,6 +3,7 @@
 mod body;
 mod drive;
 mod rod;
+mod space;
 mod time;
 
 use super::Scene;
@@ -14,6 +15,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     body::check(scene)?;
     surroundings(scene)?;
     drive::check(scene)?;
+    space::check(scene)?;
     time::check(scene)
 }
 
