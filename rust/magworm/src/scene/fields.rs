@@ -24,6 +24,7 @@ const POSITION: Kind = real("m", -10.0, 10.0);
 const HEIGHT: Kind = real("m", -1.0, 1.0);
 const FLUX_DENSITY: Kind = real("T", -10.0, 10.0);
 const TURN: Kind = real("°", -360.0, 360.0);
+const MANY_TURNS: Kind = real("°", -36_000.0, 36_000.0);
 const FRICTION: Kind = real("", 0.0, 10.0);
 const FACTOR: Kind = real("", 1e-3, 1e3);
 const SHORT: Kind = real("s", 1e-7, 0.05);
@@ -171,15 +172,13 @@ static CONSTANT: Table = Table {
     ],
 };
 
-const YAW: Kind = real("°", -36_000.0, 36_000.0);
-
 static WAYPOINTS: Table = Table {
     fields: &[
         required("time_s", Kind::List { of: &real("s", 0.0, 1e5), most: MOST_WAYPOINTS }),
         required("x_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
         required("y_m", Kind::List { of: &HEIGHT, most: MOST_WAYPOINTS }),
         optional("z_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
-        optional("yaw_deg", Kind::List { of: &YAW, most: MOST_WAYPOINTS }),
+        optional("yaw_deg", Kind::List { of: &MANY_TURNS, most: MOST_WAYPOINTS }),
     ],
 };
 
