@@ -8,15 +8,16 @@ use crate::state::{Batch, LaneChoice, Pool, Status, View};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::sync::Arc;
 
-/// One environment over time: S + 1 instants, M body magnets, D drive magnets, K nodes.
+/// One environment over time: S + 1 instants, M body magnets, D drive magnets, K nodes. Numbers of a pose or
+/// place are those of a [`View`]'s rows.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Poses of the body magnets (x, y [m], angle [rad]), shape [S + 1 × M].
-    pub magnet_poses: Vec<[f64; 3]>,
-    /// Centres of the drive magnets [m], shape [S + 1 × D].
-    pub drive_m: Vec<[f64; 2]>,
-    /// Node positions [m], shape [S + 1 × K]; empty where they were not asked for.
-    pub node_m: Vec<[f64; 2]>,
+    /// Poses of the body magnets, shape [S + 1 × M × 3], in space [S + 1 × M × 7].
+    pub magnet_poses: Vec<f64>,
+    /// Places of the drive magnets, shape [S + 1 × D × 2], in space [S + 1 × D × 4].
+    pub drive: Vec<f64>,
+    /// Node positions [m], shape [S + 1 × K × 2], in space [S + 1 × K × 3]; empty where they were not asked for.
+    pub node_m: Vec<f64>,
     /// Status at the end. A broken environment stands still in the instants after it broke.
     pub status: Status,
 }
@@ -45,12 +46,8 @@ pub fn record(models: &[(Arc<Model>, Watch)], threads: Option<usize>) -> Vec<Rec
 fn record_one(model: &Arc<Model>, watch: Watch) -> Recording {
     let mut batch = Batch::new(model.clone(), 1, LaneChoice::Scalar, Some(1));
     batch.reset(0, 0, 0, None);
-    let mut recording = Recording {
-        magnet_poses: vec![],
-        drive_m: vec![],
-        node_m: vec![],
-        status: Status::Running,
-    };
+    let mut recording =
+        Recording { magnet_poses: vec![], drive: vec![], node_m: vec![], status: Status::Running };
     batch.view(0, |view| recording.note(model, &view, watch.nodes));
     for _ in 0..watch.intervals {
         batch.advance(watch.steps);
@@ -62,11 +59,11 @@ fn record_one(model: &Arc<Model>, watch: Watch) -> Recording {
 
 impl Recording {
     fn note(&mut self, model: &Model, view: &View<'_>, nodes: bool) {
-        self.magnet_poses.extend((0..model.magnets()).map(|j| view.magnet_pose(j)));
+        self.magnet_poses.extend((0..model.magnets()).flat_map(|j| view.magnet_pose(j)));
         let drives = model.program.drive.as_ref().map_or(0, |drive| drive.layout.offset_m.len());
-        self.drive_m.extend((0..drives).filter_map(|k| view.drive_m(k)));
+        self.drive.extend((0..drives).filter_map(|k| view.drive_place(k)).flatten());
         if nodes {
-            self.node_m.extend((0..model.nodes()).map(|n| view.node_m(n)));
+            self.node_m.extend((0..model.nodes()).flat_map(|n| view.node_m(n)));
         }
     }
 }

@@ -1,20 +1,24 @@
 //! Initial states: the straight body at rest, and what each environment draws at random.
 
-use crate::drive::{DriveModel, Path};
+use crate::drive::{DriveModel, Path, StageModel, stage_axes};
 use crate::lanes::math::sin_cos;
 use crate::model::{Anchor, Model, Sole};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 
 /// Pose of the straight body at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StartPose {
     /// Shift along x [m].
     pub x_m: f64,
     /// Height of the lowest point over the ground [m].
     pub height_m: f64,
-    /// Rotation about the head end, anticlockwise [rad].
+    /// Rotation about the head end in the plane x–y, anticlockwise [rad].
     pub angle_rad: f64,
+    /// Shift along z, in space [m].
+    pub z_m: f64,
+    /// Rotation about the vertical through the head end after that, in space [rad]; anticlockwise from above.
+    pub yaw_rad: f64,
 }
 
 /// Numbers that depend on (seed, episode, place in the sequence) alone: SplitMix64 (Steele, Lea &
@@ -48,7 +52,13 @@ fn mix(mut z: u64) -> u64 {
 /// The scene's start pose.
 pub fn scene_start(model: &Model) -> StartPose {
     let start = &model.scene.start;
-    StartPose { x_m: start.x_m, height_m: start.height_m, angle_rad: start.angle_deg.to_radians() }
+    StartPose {
+        x_m: start.x_m,
+        height_m: start.height_m,
+        angle_rad: start.angle_deg.to_radians(),
+        z_m: start.z_m,
+        yaw_rad: start.yaw_deg.to_radians(),
+    }
 }
 
 /// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
@@ -101,38 +111,47 @@ fn lay_straight<const W: usize>(
     for rows in block.state_rows_mut().into_iter().take(5) {
         rows.iter_mut().for_each(|row| row[lane] = 0.0);
     }
+    block.twist.iter_mut().for_each(|row| row[lane] = 0.0);
     block.step_count[0][lane] = 0.0;
+    let axes = model.dimensions();
     let (sin, cos) = sin_cos(start.angle_rad);
-    let head = [start.x_m, start.height_m + drop_to_lowest(model, sin, cos)];
-    let place = |arc: f64| [head[0] + arc * cos, head[1] + arc * sin];
+    let (yaw_sin, yaw_cos) = sin_cos(start.yaw_rad);
+    let head = [start.x_m, start.height_m + drop_to_lowest(model, sin, cos), start.z_m];
+    let tangent = [cos * yaw_cos, sin, -(cos * yaw_sin)];
+    let place = |arc: f64, axis: usize| head[axis] + arc * tangent[axis];
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
-        let [x, y] = place(model.mesh.arc_m[node]);
-        match *anchor {
-            Anchor::Free { dof } => {
-                block.q[dof][lane] = x;
-                block.q[dof + 1][lane] = y;
+        let arc = model.mesh.arc_m[node];
+        for axis in 0..axes {
+            match *anchor {
+                Anchor::Free { dof } => block.q[dof + axis][lane] = place(arc, axis),
+                Anchor::Fixed => block.held[axes * node + axis][lane] = place(arc, axis),
+                Anchor::Rigid { .. } => {}
             }
-            Anchor::Fixed => {
-                block.held[2 * node][lane] = x;
-                block.held[2 * node + 1][lane] = y;
-            }
-            Anchor::Rigid { .. } => {}
         }
     }
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
         let element = model.mesh.magnets[body].element;
         let middle = 0.5 * (model.mesh.arc_m[element] + model.mesh.arc_m[element + 1]);
-        let [x, y] = place(middle);
-        block.q[dof][lane] = x;
-        block.q[dof + 1][lane] = y;
-        block.q[dof + 2][lane] = start.angle_rad;
+        for axis in 0..axes {
+            block.q[dof + axis][lane] = place(middle, axis);
+        }
+        if axes == 2 {
+            block.q[dof + 2][lane] = start.angle_rad;
+        }
+    }
+    let up = [-(sin * yaw_cos), cos, sin * yaw_sin];
+    for element in block.director.chunks_exact_mut(6) {
+        for axis in 0..3 {
+            element[axis][lane] = up[axis];
+            element[3 + axis][lane] = tangent[axis];
+        }
     }
 }
 
 /// How far the centre line's head end lies above the lowest contact point; 0 without ground.
 fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
     let below = |sole: &Sole| match *sole {
-        Sole::Foot { body, along_m, depth_m } => {
+        Sole::Foot { body, along_m, depth_m, .. } => {
             let element = model.mesh.magnets[body].element;
             let arc = &model.mesh.arc_m;
             depth_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin
@@ -165,26 +184,42 @@ fn place_drive<const W: usize>(
     lane: usize,
     draws: &mut Draws,
 ) {
-    let point = match &drive.path {
+    let axes = stage_axes(model.dimensions());
+    let place = match &drive.path {
         Path::Controlled(limits) => {
-            let centre = block.centre_x(model, lane);
+            let [x, z, heading] = block.robot_pose(model, lane);
             if model.scene.reset.random_drive {
-                [
-                    centre + draws.uniform(-limits.reach_m, limits.reach_m),
-                    draws.uniform(limits.lowest_m, limits.highest_m),
-                ]
+                random_place(limits, [x, z, heading], axes, draws)
             } else {
-                [centre, limits.lowest_m]
+                [x, limits.lowest_m, z, heading]
             }
         }
-        Path::Constant { start_m, .. } => *start_m,
-        Path::Waypoints { point_m, .. } => point_m[0],
+        Path::Constant { start, .. } => *start,
+        Path::Waypoints { point, .. } => point[0],
     };
-    for k in 0..2 {
-        block.stage[k][lane] = point[k];
-        block.stage[k + 2][lane] = 0.0;
-        block.target[k][lane] = point[k];
+    for axis in 0..axes {
+        block.stage[axis][lane] = place[axis];
+        block.stage[axes + axis][lane] = 0.0;
+        block.target[axis][lane] = place[axis];
     }
-    block.target[2][lane] = 0.0;
+    block.target[axes][lane] = 0.0;
     block.action.iter_mut().for_each(|row| row[lane] = 0.0);
+}
+
+/// A place within the limits of a stage, around a robot.
+fn random_place(
+    limits: &StageModel,
+    [x, z, heading]: [f64; 3],
+    axes: usize,
+    draws: &mut Draws,
+) -> [f64; 4] {
+    let along = draws.uniform(-limits.reach_m, limits.reach_m);
+    let height = draws.uniform(limits.lowest_m, limits.highest_m);
+    if axes == 2 {
+        return [x + along, height, 0.0, 0.0];
+    }
+    let aside = draws.uniform(-limits.lateral_reach_m, limits.lateral_reach_m);
+    let yaw = heading + draws.uniform(-limits.yaw_reach_rad, limits.yaw_reach_rad);
+    let (sin, cos) = sin_cos(heading);
+    [x + along * cos + aside * sin, height, z + aside * cos - along * sin, yaw]
 }

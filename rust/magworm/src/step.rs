@@ -1,13 +1,15 @@
 //! One solver step of a block, and one control step made of them.
 
 use crate::contact;
-use crate::drive::{DriveModel, Path, on_waypoints};
+use crate::drive::{DriveModel, Path, StageModel, on_waypoints, stage_axes};
 use crate::elastic;
 use crate::integrate;
+use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
+use std::f64::consts::TAU;
 
 /// Advances a block by `steps` solver steps. Environments that break stand still.
 #[inline(always)]
@@ -15,28 +17,41 @@ pub fn advance<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
     for lane in 0..W {
         block.running[0][lane] = if block.status[lane] == Status::Running { 1.0 } else { 0.0 };
     }
+    match model.dimensions() {
+        2 => advance_in::<W, 2, I>(isa, model, block, steps),
+        _ => advance_in::<W, 3, I>(isa, model, block, steps),
+    }
+}
+
+#[inline(always)]
+fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+    steps: u32,
+) {
     for _ in 0..steps {
         isa.vectorize(
             #[inline(always)]
-            || step(isa, model, block),
+            || step::<W, D, I>(isa, model, block),
         );
     }
 }
 
-/// One solver step.
+/// One solver step in D dimensions.
 #[inline(always)]
-fn step<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
-    move_drive(isa, model, block);
-    elastic::kinematics(isa, model, block);
-    integrate::assemble(isa, model, block);
-    solve(isa, model, block);
-    commit(isa, model, block);
+fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    move_drive::<W, D, I>(isa, model, block);
+    elastic::kinematics::<W, D, I>(isa, model, block);
+    integrate::assemble::<W, D, I>(isa, model, block);
+    solve::<W, D, I>(isa, model, block);
+    commit::<W, D, I>(isa, model, block);
     block.counters.steps += 1;
 }
 
 /// Velocities at the end of the step, with contact where the scene has ground.
 #[inline(always)]
-fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn solve<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     if let Some(law) = &model.program.ground {
         let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
         let ground = contact::Ground::new(
@@ -45,8 +60,8 @@ fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>)
             factor(Parameter::DynamicFriction),
             model.step_s,
         );
-        contact::detect(isa, model, &ground, block);
-        contact::solve(isa, model, &ground, block);
+        contact::detect::<W, D, I>(isa, model, &ground, block);
+        contact::solve::<W, D, I>(isa, model, &ground, block);
         return;
     }
     block.factor.copy_from_slice(&block.matrix);
@@ -57,13 +72,14 @@ fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>)
     block.counters.solves += 1;
 }
 
-/// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state.
+/// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
+/// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
-fn commit<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn commit<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let finite = all_finite(isa, block);
     let intact = intact(isa, model, block);
-    let above = above_ground(isa, model, block);
+    let above = above_ground::<W, D, I>(isa, model, block);
     let sound = finite & intact & above;
     if (running & !sound).any() {
         mark_broken(isa, block, running, [finite, intact, above]);
@@ -74,6 +90,9 @@ fn commit<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>
         let next = isa.load(&block.next[dof]);
         isa.store(I::F::select(go, next, v), &mut block.v[dof]);
         isa.store(I::F::select(go, q + next * model.step_s, q), &mut block.q[dof]);
+    }
+    if D == 3 {
+        elastic::turn(isa, model, block, go);
     }
     let count = isa.load(&block.step_count[0]);
     isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
@@ -102,11 +121,15 @@ fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
 }
 
 #[inline(always)]
-fn above_ground<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) -> I::M {
+fn above_ground<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &Block<W>,
+) -> I::M {
     let mut lowest = isa.splat(0.0);
     if model.program.ground.is_some() {
         for node in 0..model.nodes() {
-            lowest = lowest.min(isa.load(&block.node[2 * node + 1]));
+            lowest = lowest.min(isa.load(&block.node[D * node + 1]));
         }
     }
     lowest.ge(isa.splat(-model.thickness_m))
@@ -139,26 +162,52 @@ fn mark_broken<const W: usize, I: Isa<W>>(
 
 /// Puts the drive where it is at the end of the step.
 #[inline(always)]
-fn move_drive<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn move_drive<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
     let Some(drive) = &model.program.drive else { return };
+    let axes = stage_axes(D);
     let time = (isa.load(&block.step_count[0]) + 1.0) * model.step_s;
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    let stage = load_all(isa, &block.stage, [0, 1, 2, 3]);
-    let moved = match &drive.path {
+    let zero = isa.splat(0.0);
+    let (mut place, mut speed) = ([zero; 4], [zero; 4]);
+    match &drive.path {
         Path::Controlled(limits) => {
-            let [x, y, limit, _] = load_all(isa, &block.target, [0, 1, 2, 2]);
-            let (x, vx) = limits.advance(stage[0], stage[2], x, limit, model.step_s);
-            let (y, vy) = limits.advance(stage[1], stage[3], y, limit, model.step_s);
-            [x, y, vx, vy]
+            let greatest = isa.load(&block.target[axes]);
+            for axis in 0..axes {
+                let limit = if axis == 3 {
+                    greatest * (limits.yaw_speed_rad_s / limits.speed_m_s)
+                } else {
+                    greatest
+                };
+                (place[axis], speed[axis]) = StageModel::advance(
+                    limits.acceleration(axis),
+                    isa.load(&block.stage[axis]),
+                    isa.load(&block.stage[axes + axis]),
+                    isa.load(&block.target[axis]),
+                    limit,
+                    model.step_s,
+                );
+            }
         }
-        Path::Constant { start_m, speed_m_s } => {
-            let speed = isa.load(&block.factors[Parameter::DriveSpeed as usize]) * *speed_m_s;
-            [speed * time + start_m[0], isa.splat(start_m[1]), speed, isa.splat(0.0)]
+        Path::Constant { start, speed_m_s } => {
+            speed[0] = isa.load(&block.factors[Parameter::DriveSpeed as usize]) * *speed_m_s;
+            place[0] = speed[0] * time + start[0];
+            for axis in 1..axes {
+                place[axis] = isa.splat(start[axis]);
+            }
         }
-        Path::Waypoints { time_s, point_m } => follow(isa, time_s, point_m, time),
-    };
-    for k in 0..4 {
-        isa.store(I::F::select(running, moved[k], stage[k]), &mut block.stage[k]);
+        Path::Waypoints { time_s, point } => {
+            follow(isa, time_s, point, time, &mut place, &mut speed);
+        }
+    }
+    for axis in 0..axes {
+        for (row, value) in [(axis, place[axis]), (axes + axis, speed[axis])] {
+            let row = &mut block.stage[row];
+            isa.store(I::F::select(running, value, isa.load(row)), row);
+        }
     }
 }
 
@@ -167,26 +216,25 @@ fn move_drive<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Bloc
 fn follow<const W: usize, I: Isa<W>>(
     isa: I,
     time_s: &[f64],
-    point_m: &[[f64; 2]],
+    point: &[[f64; 4]],
     time: I::F,
-) -> [I::F; 4] {
+    place: &mut [I::F; 4],
+    speed: &mut [I::F; 4],
+) {
     let mut now = [0.0; W];
     isa.store(time, &mut now);
-    let mut rows = [[0.0; W]; 4];
+    let mut rows = [[0.0; W]; 8];
     for lane in 0..W {
-        let (position, velocity) = on_waypoints(time_s, point_m, now[lane]);
-        rows[0][lane] = position[0];
-        rows[1][lane] = position[1];
-        rows[2][lane] = velocity[0];
-        rows[3][lane] = velocity[1];
+        let (position, velocity) = on_waypoints(time_s, point, now[lane]);
+        for axis in 0..4 {
+            rows[axis][lane] = position[axis];
+            rows[4 + axis][lane] = velocity[axis];
+        }
     }
-    load_all(isa, &rows, [0, 1, 2, 3])
-}
-
-/// Rows as vectors. Not `map`: closures of the standard library are not compiled for the lanes.
-#[inline(always)]
-fn load_all<const W: usize, I: Isa<W>>(isa: I, rows: &[[f64; W]], k: [usize; 4]) -> [I::F; 4] {
-    [isa.load(&rows[k[0]]), isa.load(&rows[k[1]]), isa.load(&rows[k[2]]), isa.load(&rows[k[3]])]
+    for axis in 0..4 {
+        place[axis] = isa.load(&rows[axis]);
+        speed[axis] = isa.load(&rows[4 + axis]);
+    }
 }
 
 /// x of the robot's centre: mean of its magnets.
@@ -199,23 +247,41 @@ pub fn robot_centre<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Bl
     sum / (model.magnets().max(1) as f64)
 }
 
-/// Sets the targets of a controlled drive from actions in [−1, 1]: place relative to the robot's
-/// centre now, height, travel speed. Values beyond are clipped.
+/// Sets the targets of a controlled drive from actions in [−1, 1]. In the plane: place relative to the
+/// robot's centre now, height, travel speed. In space: place along the robot's heading and to its side, height,
+/// travel speed, yaw against its heading where the stage has it. Values beyond are clipped.
 pub fn command<const W: usize>(
     model: &Model,
     drive: &DriveModel,
     block: &mut Block<W>,
     lane: usize,
-    action: [f64; 3],
+    action: &[f64],
 ) {
     let Path::Controlled(limits) = &drive.path else { return };
-    let action = action.map(|a| a.clamp(-1.0, 1.0));
+    let action = |k: usize| action.get(k).map_or(0.0, |a| a.clamp(-1.0, 1.0));
     let unit = |a: f64| 0.5 * (a + 1.0);
-    block.target[0][lane] = block.centre_x(model, lane) + action[0] * limits.reach_m;
-    block.target[1][lane] =
-        limits.lowest_m + unit(action[1]) * (limits.highest_m - limits.lowest_m);
-    block.target[2][lane] = unit(action[2]) * limits.speed_m_s;
-    for k in 0..3 {
-        block.action[k][lane] = action[k];
+    let size = limits.action_size(model.dimensions());
+    let along = action(0) * limits.reach_m;
+    let height = |a: f64| limits.lowest_m + unit(a) * (limits.highest_m - limits.lowest_m);
+    let targets = if model.dimensions() == 2 {
+        let speed = unit(action(2)) * limits.speed_m_s;
+        [block.centre_x(model, lane) + along, height(action(1)), speed, 0.0, 0.0]
+    } else {
+        let [x, z, heading] = block.robot_pose(model, lane);
+        let (sin, cos) = sin_cos(heading);
+        let aside = action(1) * limits.lateral_reach_m;
+        let yaw = heading + action(4) * limits.yaw_reach_rad;
+        // On the branch where the stage is, so that it never turns back by a whole turn.
+        let turns = ((block.stage[3][lane] - yaw) / TAU).round();
+        let place =
+            [x + along * cos + aside * sin, height(action(2)), z + aside * cos - along * sin];
+        let speed = unit(action(3)) * limits.speed_m_s;
+        [place[0], place[1], place[2], yaw + turns * TAU, speed]
+    };
+    for (row, target) in block.target.iter_mut().zip(targets) {
+        row[lane] = target;
+    }
+    for k in 0..size {
+        block.action[k][lane] = action(k);
     }
 }

@@ -29,8 +29,8 @@ fn act<const W: usize>(model: &Model, block: &mut Block<W>, first: usize, contro
     let Some(drive) = &model.program.drive else { return };
     for lane in 0..W {
         let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
-        let action = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
-        command(model, drive, block, lane, action);
+        let action: [f64; 3] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
+        command(model, drive, block, lane, &action);
     }
 }
 

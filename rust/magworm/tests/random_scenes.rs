@@ -36,9 +36,10 @@ fn numbers(batch: &Batch, environment: usize) -> Vec<f64> {
         (0..model.nodes()).for_each(|node| seen.extend(view.node_m(node)));
         (0..model.contacts.len()).for_each(|contact| seen.extend(view.contact(contact)));
         let magnets = model.program.drive.as_ref().map_or(0, |d| d.layout.offset_m.len());
-        (0..magnets).for_each(|magnet| seen.extend(view.drive_m(magnet).expect("a drive")));
-        seen.extend(view.drive_m_s());
-        seen.extend([view.centre_x_m(), view.time_s()]);
+        (0..magnets).for_each(|magnet| seen.extend(view.drive_place(magnet).expect("a drive")));
+        seen.extend(view.drive_velocity());
+        seen.extend(view.robot_pose());
+        seen.push(view.time_s());
         let mut observation = vec![0.0; magworm::observe::size(model)];
         view.observe(&mut observation);
         seen.extend(observation.into_iter().map(f64::from));

@@ -1,8 +1,10 @@
 //! Gaps and Jacobians of the contact points.
 
-use super::{Ground, Mode, SLOTS};
+use super::guess::first_guess;
+use super::{Ground, MOST_DIRECTIONS, SLOTS, jacobian_rows};
+use crate::elastic::{axes, cross};
 use crate::lanes::{Isa, Real};
-use crate::model::{Contact, Model, Sole};
+use crate::model::{Contact, Model, Sole, body_size};
 use crate::state::Block;
 
 /// Fastest a point that starts inside the ground is pushed out [m/s].
@@ -10,118 +12,135 @@ const RECOVERY_M_S: f64 = 0.1;
 
 /// Fills Jacobians, approach velocities and first guesses of the modes of all contact points.
 #[inline(always)]
-pub fn detect<const W: usize, I: Isa<W>>(
+pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
 ) {
+    let zero = isa.splat(0.0);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let point = match contact.sole {
-            Sole::Foot { body, along_m, depth_m } => {
-                foot(isa, block, body, contact.stencil.dofs[0], along_m, depth_m)
+        let mut point = Point { gap: zero, directions: [[zero; SLOTS]; MOST_DIRECTIONS] };
+        match contact.sole {
+            Sole::Foot { body, along_m, depth_m, across_m } => {
+                let dof = contact.stencil.dofs[0];
+                if D == 2 {
+                    foot(isa, block, body, dof, [along_m, depth_m], &mut point);
+                } else {
+                    corner(isa, block, body, dof, [along_m, -depth_m, across_m], &mut point);
+                }
             }
-            Sole::Node { node, depth_m } => below_node(isa, block, contact, node, depth_m),
-        };
-        let (v, jacobian) = (&*block.v, &mut block.jacobian[2 * SLOTS * c..]);
-        let (mut u_n, mut u_t) = (isa.splat(0.0), isa.splat(0.0));
-        for slot in 0..contact.stencil.count {
-            let rate = isa.load(&v[contact.stencil.dofs[slot]]);
-            u_n = u_n + point.normal[slot] * rate;
-            u_t = u_t + point.tangential[slot] * rate;
-            isa.store(point.normal[slot], &mut jacobian[slot]);
-            isa.store(point.tangential[slot], &mut jacobian[SLOTS + slot]);
+            Sole::Node { node, depth_m } => {
+                below_node::<W, D, I>(isa, block, contact, node, depth_m, &mut point);
+            }
+        }
+        let (v, jacobian) = (&*block.v, &mut block.jacobian[jacobian_rows(D) * c..]);
+        let mut u = [zero; MOST_DIRECTIONS];
+        for direction in 0..D {
+            for slot in 0..contact.stencil.count {
+                let rate = isa.load(&v[contact.stencil.dofs[slot]]);
+                u[direction] = u[direction] + point.directions[direction][slot] * rate;
+                let entry = &mut jacobian[body_size(D) * direction + slot];
+                isa.store(point.directions[direction][slot], entry);
+            }
         }
         let approach = (point.gap / model.step_s).max(isa.splat(-RECOVERY_M_S));
         isa.store(approach, &mut block.approach[c]);
-        first_guess(isa, ground, block, c, u_n + approach, u_t);
+        first_guess::<W, D, I>(isa, ground, block, c, u[0] + approach, [u[1], u[2]]);
     }
 }
 
-/// A contact point: its height over the ground, and how its velocity hangs on its unknowns.
+/// A contact point: its height over the ground, and how its velocity upwards, along x and along z hangs on
+/// its unknowns.
 struct Point<F> {
     gap: F,
-    normal: [F; SLOTS],
-    tangential: [F; SLOTS],
+    directions: [[F; SLOTS]; MOST_DIRECTIONS],
 }
 
-/// Toe or heel at (s, −d) in the magnet's frame: p = X + s t − d n with t = (cos θ, sin θ), n = ẑ × t, so
-/// ∂p_y/∂θ = s cos θ + d sin θ and ∂p_x/∂θ = −s sin θ + d cos θ.
+/// Toe or heel in the plane at (s, −d) in the magnet's frame: p = X + s t − d n with t = (cos θ, sin θ),
+/// n = ẑ × t, so ∂p_y/∂θ = s cos θ + d sin θ and ∂p_x/∂θ = −s sin θ + d cos θ.
 #[inline(always)]
 fn foot<const W: usize, I: Isa<W>>(
     isa: I,
     block: &Block<W>,
     body: usize,
     dof: usize,
-    along_m: f64,
-    depth_m: f64,
-) -> Point<I::F> {
-    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    [along_m, depth_m]: [f64; 2],
+    point: &mut Point<I::F>,
+) {
+    let one = isa.splat(1.0);
     let cos = isa.load(&block.frame[2 * body]);
     let sin = isa.load(&block.frame[2 * body + 1]);
-    Point {
-        gap: isa.load(&block.q[dof + 1]) + sin * along_m - cos * depth_m,
-        normal: [zero, one, cos * along_m + sin * depth_m],
-        tangential: [one, zero, cos * depth_m - sin * along_m],
+    point.gap = isa.load(&block.q[dof + 1]) + sin * along_m - cos * depth_m;
+    point.directions[0][1] = one;
+    point.directions[0][2] = cos * along_m + sin * depth_m;
+    point.directions[1][0] = one;
+    point.directions[1][2] = cos * depth_m - sin * along_m;
+}
+
+/// Corner of a foot in space at r = Σ places · axes from its magnet.
+#[inline(always)]
+fn corner<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W>,
+    body: usize,
+    dof: usize,
+    places_m: [f64; 3],
+    point: &mut Point<I::F>,
+) {
+    let frame = axes(isa, block, body);
+    let mut r = [isa.splat(0.0); 3];
+    for axis in 0..3 {
+        r[axis] = frame[0][axis] * places_m[0]
+            + frame[1][axis] * places_m[1]
+            + frame[2][axis] * places_m[2];
+    }
+    point.gap = isa.load(&block.q[dof + 1]) + r[1];
+    lever(isa, &r, point);
+}
+
+/// Directions of a point at arm r from a magnet: its velocity along a is a·(V + ω × r) = a·V + (r × a)·ω.
+#[inline(always)]
+fn lever<const W: usize, I: Isa<W>>(isa: I, r: &[I::F; 3], point: &mut Point<I::F>) {
+    for (direction, axis) in [(0, 1), (1, 0), (2, 2)] {
+        let mut a = [isa.splat(0.0); 3];
+        a[axis] = isa.splat(1.0);
+        let turn = cross(r, &a);
+        for k in 0..3 {
+            point.directions[direction][k] = a[k];
+            point.directions[direction][3 + k] = turn[k];
+        }
     }
 }
 
 /// A point straight below a node; where the node is the end of a magnet, it turns about its centre.
 #[inline(always)]
-fn below_node<const W: usize, I: Isa<W>>(
+fn below_node<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     block: &Block<W>,
     contact: &Contact,
     node: usize,
     depth_m: f64,
-) -> Point<I::F> {
-    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
-    let (x, y) = (isa.load(&block.node[2 * node]), isa.load(&block.node[2 * node + 1]));
-    let mut point =
-        Point { gap: y - depth_m, normal: [zero, one, zero], tangential: [one, zero, zero] };
-    if contact.stencil.body[0].is_some() {
-        let dof = contact.stencil.body_dofs[0];
-        point.normal[2] = x - isa.load(&block.q[dof]);
-        point.tangential[2] = isa.load(&block.q[dof + 1]) - y;
-    }
-    point
-}
-
-/// A point that was closed, or is about to pass through the ground, starts closed. Its speed at the start
-/// of the step decides: up to v_d it starts sticking and μ_s holds for the step, beyond it slides on
-/// against μ_d. One coefficient per step keeps the law monotone, and its limit for small steps is the
-/// paper's.
-#[inline(always)]
-fn first_guess<const W: usize, I: Isa<W>>(
-    isa: I,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    c: usize,
-    u_n: I::F,
-    u_t: I::F,
+    point: &mut Point<I::F>,
 ) {
-    let zero = isa.splat(0.0);
-    let before = isa.load(&block.mode[c]);
-    let was_closed = !before.eq(isa.splat(Mode::OPEN));
-    let closed = was_closed | u_n.lt(zero);
-    let slow = u_t.abs().le(ground.transition_speed);
-    let sliding = isa.splat(Mode::SLIDE_FORWARD).copysign(u_t);
-    // One that slid goes on until its velocity reverses: a guess that it sticks would ask for its whole
-    // momentum within one step, which no friction has.
-    let slid = before.abs().eq(isa.splat(Mode::SLIDE_FORWARD));
-    let moving = I::F::select(slow & !slid, isa.splat(Mode::STICK), sliding);
-    let guess = I::F::select(closed, moving, isa.splat(Mode::OPEN));
-    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    isa.store(I::F::select(running, guess, before), &mut block.mode[c]);
-    let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
-    isa.store(coefficient, &mut block.coefficient[c]);
-    let stuck = before.eq(isa.splat(Mode::STICK));
-    let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);
-    let tangential = I::F::select(stuck, isa.load(&block.tangential[c]), zero);
-    isa.store(normal, &mut block.warm[2 * c]);
-    isa.store(tangential, &mut block.warm[2 * c + 1]);
-    isa.store(normal, &mut block.reckoned[c]);
-    // No pass before the first: nothing to extrapolate from.
-    isa.store(normal, &mut block.earlier[2 * c]);
-    isa.store(normal, &mut block.earlier[2 * c + 1]);
+    let one = isa.splat(1.0);
+    let y = isa.load(&block.node[D * node + 1]);
+    point.gap = y - depth_m;
+    for (direction, axis) in [(0, 1), (1, 0), (2, 2)].into_iter().take(D) {
+        point.directions[direction][axis] = one;
+    }
+    if contact.stencil.body[0].is_none() {
+        return;
+    }
+    let dof = contact.stencil.body_dofs[0];
+    let x = isa.load(&block.node[D * node]);
+    let arm_x = x - isa.load(&block.q[dof]);
+    if D == 2 {
+        point.directions[0][2] = arm_x;
+        point.directions[1][2] = isa.load(&block.q[dof + 1]) - y;
+    } else {
+        let z = isa.load(&block.node[D * node + D - 1]);
+        let arm_z = z - isa.load(&block.q[dof + D - 1]);
+        lever(isa, &[arm_x, y - isa.load(&block.q[dof + 1]), arm_z], point);
+    }
 }

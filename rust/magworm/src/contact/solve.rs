@@ -6,10 +6,11 @@
 //! is extrapolated from the passes before; both are iterated until nothing changes. Lanes that are done are
 //! frozen, so the passes a neighbour still needs do not touch their bits.
 
-use super::{Mode, SLOTS};
+use super::guess::{along, direction, length};
+use super::{Mode, SLOTS, jacobian_rows};
 use crate::elastic::{add_rank_one, add_scaled, rate};
 use crate::lanes::{Isa, Mask, Real};
-use crate::model::{GroundLaw, Model};
+use crate::model::{GroundLaw, Model, body_size};
 use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
@@ -59,19 +60,19 @@ impl<F: Real> Ground<F> {
 
 /// Solves for the velocities at the end of the step into `next`; updates impulses and modes.
 #[inline(always)]
-pub fn solve<const W: usize, I: Isa<W>>(
+pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
 ) {
     let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
-    let (mut refactor, mut wild) = (true, done);
+    let (mut stale, mut wild) = (!done, done);
     for pass in 0..model.scene.solver.contact_iterations {
-        solve_assumed(isa, model, ground, block, done, refactor);
-        let change = update_modes(isa, model, ground, block, done, pass);
+        solve_assumed::<W, D, I>(isa, model, ground, block, done, stale);
+        let change = update_modes::<W, D, I>(isa, model, ground, block, done, pass);
         done = done | !(change.modes | change.impulses);
-        refactor = (change.modes & !done).any();
+        stale = (change.modes | change.directions) & !done;
         wild = change.wild & !done;
         if done.all() {
             return;
@@ -79,30 +80,68 @@ pub fn solve<const W: usize, I: Isa<W>>(
     }
     if wild.any() {
         stick(isa, model, block, !wild);
-        solve_assumed(isa, model, ground, block, !wild, true);
-        update_modes(isa, model, ground, block, !wild, 0);
+        solve_assumed::<W, D, I>(isa, model, ground, block, !wild, wild);
+        update_modes::<W, D, I>(isa, model, ground, block, !wild, 0);
     }
 }
 
-/// Solves under the modes as they are assumed.
+/// Solves under the modes as they are assumed; the matrix of the lanes in `stale` has changed.
 #[inline(always)]
-fn solve_assumed<const W: usize, I: Isa<W>>(
+fn solve_assumed<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     done: I::M,
-    refactor: bool,
+    stale: I::M,
 ) {
-    if refactor {
-        assemble_matrix(isa, model, ground, block);
+    if stale.any() {
+        if D == 3 {
+            linearise(isa, model, ground, block, stale);
+        }
+        assemble_matrix::<W, D, I>(isa, model, ground, block);
         model.band.factor(isa, &mut block.factor);
         block.counters.factorisations += 1;
     }
-    assemble_right(isa, model, ground, block);
+    assemble_right::<W, D, I>(isa, model, ground, block);
     model.band.solve(isa, &block.factor, &mut block.solution);
     block.counters.solves += 1;
     accept(isa, block, done);
+}
+
+/// Friction of sliding points about their velocity in the pass before: the direction p across it, and the
+/// viscosity F/|u| of a motion along p.
+#[inline(always)]
+fn linearise<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    stale: I::M,
+) {
+    for c in 0..model.contacts.len() {
+        let slip = load2::<W, 3, I>(isa, &block.slip, 2 * c);
+        let viscosity = viscosity(isa, ground, block, c, isa.load(&block.speed[c]));
+        let rows = [-slip[1], slip[0], viscosity, isa.splat(0.0)];
+        for k in 0..4 {
+            let row = &mut block.across[4 * c + k];
+            isa.store(I::F::select(stale, rows[k], isa.load(row)), row);
+        }
+    }
+}
+
+/// F/|u|, no greater than the penalty.
+#[inline(always)]
+fn viscosity<const W: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    block: &Block<W>,
+    c: usize,
+    speed: I::F,
+) -> I::F {
+    let friction = isa.load(&block.coefficient[c]) * isa.load(&block.reckoned[c]) + ground.adhesion;
+    let slowest = friction / ground.weight;
+    friction / speed.max(slowest).max(isa.splat(1e-30))
 }
 
 /// Where the passes have run out and friction reckons with an impulse that grows from pass to pass: what is
@@ -120,12 +159,14 @@ fn stick<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>,
 struct Change<M> {
     modes: M,
     impulses: M,
+    /// A sliding point has another velocity than friction was linearised about.
+    directions: M,
     /// Friction of a sliding point is far from its normal impulse, or drives it.
     wild: M,
 }
 
 #[inline(always)]
-fn assemble_matrix<const W: usize, I: Isa<W>>(
+fn assemble_matrix<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
@@ -138,17 +179,22 @@ fn assemble_matrix<const W: usize, I: Isa<W>>(
         let mode = isa.load(&block.mode[c]);
         let closed = I::F::select(mode.eq(isa.splat(Mode::OPEN)), zero, ground.weight);
         let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
-        let weights = [closed, stuck];
-        for direction in 0..2 {
-            jacobian(isa, block, c, direction, &mut row);
-            let weight = weights[direction];
+        for direction in 0..D {
+            jacobian::<W, D, I>(isa, block, c, direction, &mut row);
+            let weight = if direction == 0 { closed } else { stuck };
+            add_rank_one(isa, &mut block.factor, &contact.stencil, &row, weight);
+        }
+        if D == 3 {
+            across_row(isa, block, c, &mut row);
+            let viscosity = isa.load(&block.across[4 * c + 2]);
+            let weight = I::F::select(mode.eq(isa.splat(Mode::SLIDE)), viscosity, zero);
             add_rank_one(isa, &mut block.factor, &contact.stencil, &row, weight);
         }
     }
 }
 
 #[inline(always)]
-fn assemble_right<const W: usize, I: Isa<W>>(
+fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
@@ -161,33 +207,67 @@ fn assemble_right<const W: usize, I: Isa<W>>(
         let mode = isa.load(&block.mode[c]);
         let open = mode.eq(isa.splat(Mode::OPEN));
         let stuck = mode.eq(isa.splat(Mode::STICK));
-        let held = isa.load(&block.warm[2 * c]) - ground.weight * isa.load(&block.approach[c]);
+        let held = isa.load(&block.warm[D * c]) - ground.weight * isa.load(&block.approach[c]);
         let coefficient = isa.load(&block.coefficient[c]);
         let friction = coefficient * isa.load(&block.reckoned[c]) + ground.adhesion;
-        let sliding =
-            I::F::select(stuck, isa.load(&block.warm[2 * c + 1]), -friction.copysign(mode));
-        let impulses = [I::F::select(open, zero, held), I::F::select(open, zero, sliding)];
-        for direction in 0..2 {
-            jacobian(isa, block, c, direction, &mut row);
-            let impulse = impulses[direction];
+        jacobian::<W, D, I>(isa, block, c, 0, &mut row);
+        let impulse = I::F::select(open, zero, held);
+        add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
+        for t in 0..D - 1 {
+            let mut sliding = -(friction * isa.load(&block.slip[(D - 1) * c + t]));
+            if D == 3 {
+                let across =
+                    isa.load(&block.across[4 * c + 2]) * isa.load(&block.across[4 * c + 3]);
+                sliding = sliding + across * isa.load(&block.across[4 * c + t]);
+            }
+            let warm = isa.load(&block.warm[D * c + 1 + t]);
+            let impulse = I::F::select(open, zero, I::F::select(stuck, warm, sliding));
+            jacobian::<W, D, I>(isa, block, c, 1 + t, &mut row);
             add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
         }
     }
 }
 
 #[inline(always)]
-fn jacobian<const W: usize, I: Isa<W>>(
+fn jacobian<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     block: &Block<W>,
     contact: usize,
     direction: usize,
     row: &mut [I::F; SLOTS],
 ) {
-    let first = SLOTS * (2 * contact + direction);
-    let rows = &block.jacobian[first..first + SLOTS];
-    for slot in 0..SLOTS {
+    let first = jacobian_rows(D) * contact + body_size(D) * direction;
+    let rows = &block.jacobian[first..first + body_size(D)];
+    for slot in 0..body_size(D) {
         row[slot] = isa.load(&rows[slot]);
     }
+}
+
+/// Jacobian of the velocity across the direction of sliding.
+#[inline(always)]
+fn across_row<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W>,
+    contact: usize,
+    row: &mut [I::F; SLOTS],
+) {
+    let first = jacobian_rows(3) * contact + SLOTS;
+    let rows = &block.jacobian[first..first + 2 * SLOTS];
+    let [x, z] = load2::<W, 3, I>(isa, &block.across, 4 * contact);
+    for slot in 0..SLOTS {
+        row[slot] = isa.load(&rows[slot]) * x + isa.load(&rows[SLOTS + slot]) * z;
+    }
+}
+
+/// A vector along the ground: D − 1 rows.
+#[inline(always)]
+fn load2<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    rows: &[[f64; W]],
+    first: usize,
+) -> [I::F; 2] {
+    let second = if D == 3 { isa.load(&rows[first + 1]) } else { isa.splat(0.0) };
+    [isa.load(&rows[first]), second]
 }
 
 /// Writes the lanes that are not done.
@@ -205,7 +285,7 @@ fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
 }
 
 #[inline(always)]
-fn update_modes<const W: usize, I: Isa<W>>(
+fn update_modes<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
@@ -215,34 +295,29 @@ fn update_modes<const W: usize, I: Isa<W>>(
 ) -> Change<I::M> {
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
-    let mut change = Change { modes: never, impulses: never, wild: never };
-    let (mut normal_row, mut tangential_row) = ([zero; SLOTS], [zero; SLOTS]);
-    for (c, contact) in model.contacts.iter().enumerate() {
-        jacobian(isa, block, c, 0, &mut normal_row);
-        jacobian(isa, block, c, 1, &mut tangential_row);
-        let u_n =
-            rate(isa, &block.next, &contact.stencil, &normal_row) + isa.load(&block.approach[c]);
-        let u_t = rate(isa, &block.next, &contact.stencil, &tangential_row);
-        let point = Point {
-            mode: isa.load(&block.mode[c]),
-            normal: isa.load(&block.warm[2 * c]) - ground.weight * u_n,
-            held: isa.load(&block.warm[2 * c + 1]) - ground.weight * u_t,
-            reckoned: isa.load(&block.reckoned[c]),
-            coefficient: isa.load(&block.coefficient[c]),
-            u_n,
-            u_t,
-        };
-        let after = point.after(isa, ground);
+    let mut change = Change { modes: never, impulses: never, directions: never, wild: never };
+    for c in 0..model.contacts.len() {
+        let point = Point::found::<W, D, I>(isa, model, ground, block, c);
+        let after = point.after::<W, D, I>(isa, ground);
         let moved = !after.mode.eq(point.mode);
         let closed = !after.mode.eq(isa.splat(Mode::OPEN));
         let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
         let drift = (after.normal - point.reckoned).abs();
-        let unsettled = sliding & drift.gt(after.normal * SETTLED + ground.negligible);
+        let tolerance = after.normal * SETTLED + ground.negligible;
+        let mut unsettled = sliding & drift.gt(tolerance);
+        if D == 3 {
+            let strays = sliding & veer(isa, ground, block, c, &point, &after, done).gt(tolerance);
+            let viscosity = viscosity(isa, ground, block, c, length::<I::F, D>(point.u_t));
+            let assumed = isa.load(&block.across[4 * c + 2]);
+            let off = assumed.gt(viscosity * 4.0) | assumed.lt(viscosity * 0.5);
+            change.directions = change.directions | (strays & off & !done);
+            unsettled = unsettled | strays;
+        }
         change.modes = change.modes | (moved & !done);
         change.impulses = change.impulses | (unsettled & !done);
-        let slid = point.mode.abs().eq(isa.splat(Mode::SLIDE_FORWARD));
+        let slid = point.mode.eq(isa.splat(Mode::SLIDE));
         let far = drift.gt(point.reckoned * FAR + ground.negligible);
-        let driven = (u_t * point.mode).lt(-ground.transition_speed);
+        let driven = along::<I::F, D>(point.u_t, point.slip).lt(-ground.transition_speed);
         change.wild = change.wild | (slid & (far | driven));
         let parted = point.mode.eq(isa.splat(Mode::OPEN)) | !closed;
         let waits = if pass < PATIENCE {
@@ -254,11 +329,42 @@ fn update_modes<const W: usize, I: Isa<W>>(
         };
         store_unless(isa, done | waits, after.mode, &mut block.mode[c]);
         store_unless(isa, done, after.normal, &mut block.normal[c]);
-        store_unless(isa, done, after.tangential, &mut block.tangential[c]);
+        for t in 0..D - 1 {
+            let row = (D - 1) * c + t;
+            store_unless(isa, done, after.tangential[t], &mut block.tangential[row]);
+            let kept = done | (waits & moved);
+            store_unless(isa, kept, after.slip[t], &mut block.slip[row]);
+        }
         let next = extrapolate(isa, block, c, point.reckoned, after.normal);
         store_unless(isa, done, next, &mut block.reckoned[c]);
     }
     change
+}
+
+/// How far the friction that a sliding point had in this pass is from that of the velocity found
+/// [N·s]; takes that velocity over.
+#[inline(always)]
+fn veer<const W: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    c: usize,
+    point: &Point<I::F>,
+    after: &After<I::F>,
+    done: I::M,
+) -> I::F {
+    let friction = point.coefficient * point.reckoned + ground.adhesion;
+    let p = load2::<W, 3, I>(isa, &block.across, 4 * c);
+    let across = along::<I::F, 3>(point.u_t, p);
+    let viscous =
+        isa.load(&block.across[4 * c + 2]) * (across - isa.load(&block.across[4 * c + 3]));
+    let mut stray = point.slip;
+    for t in 0..2 {
+        stray[t] = (after.slip[t] - point.slip[t]) * friction - p[t] * viscous;
+    }
+    store_unless(isa, done, across, &mut block.across[4 * c + 3]);
+    store_unless(isa, done, length::<I::F, 3>(point.u_t), &mut block.speed[c]);
+    length::<I::F, 3>(stray)
 }
 
 /// The normal impulse to reckon with in the next pass.
@@ -292,59 +398,99 @@ struct Point<F> {
     /// λ_n if it was closed.
     normal: F,
     /// λ_t if it was sticking.
-    held: F,
+    held: [F; 2],
     /// λ_n that friction reckoned with.
     reckoned: F,
     /// μ of this step.
     coefficient: F,
+    /// d that friction reckoned with.
+    slip: [F; 2],
     u_n: F,
-    u_t: F,
+    u_t: [F; 2],
 }
 
-/// Mode and impulses that the laws ask for.
+/// Mode, impulses and direction of sliding that the laws ask for.
 struct After<F> {
     mode: F,
     normal: F,
-    tangential: F,
+    tangential: [F; 2],
+    slip: [F; 2],
 }
 
 impl<F: Real> Point<F> {
     #[inline(always)]
-    fn after<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+    fn found<const W: usize, const D: usize, I: Isa<W, F = F, M = F::Mask>>(
+        isa: I,
+        model: &Model,
+        ground: &Ground<F>,
+        block: &Block<W>,
+        c: usize,
+    ) -> Self {
+        let stencil = &model.contacts[c].stencil;
+        let mut row = [isa.splat(0.0); SLOTS];
+        jacobian::<W, D, I>(isa, block, c, 0, &mut row);
+        let u_n = rate(isa, &block.next, stencil, &row) + isa.load(&block.approach[c]);
+        let (mut u_t, mut held) = ([isa.splat(0.0); 2], [isa.splat(0.0); 2]);
+        for t in 0..D - 1 {
+            jacobian::<W, D, I>(isa, block, c, 1 + t, &mut row);
+            u_t[t] = rate(isa, &block.next, stencil, &row);
+            held[t] = isa.load(&block.warm[D * c + 1 + t]) - ground.weight * u_t[t];
+        }
+        Self {
+            mode: isa.load(&block.mode[c]),
+            normal: isa.load(&block.warm[D * c]) - ground.weight * u_n,
+            held,
+            reckoned: isa.load(&block.reckoned[c]),
+            coefficient: isa.load(&block.coefficient[c]),
+            slip: load2::<W, D, I>(isa, &block.slip, (D - 1) * c),
+            u_n,
+            u_t,
+        }
+    }
+
+    #[inline(always)]
+    fn after<const W: usize, const D: usize, I: Isa<W, F = F, M = F::Mask>>(
         &self,
         isa: I,
         ground: &Ground<F>,
     ) -> After<F> {
         let zero = isa.splat(0.0);
         let (open, stick) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
-        let forward = isa.splat(Mode::SLIDE_FORWARD);
+        let slide = isa.splat(Mode::SLIDE);
         let is_open = self.mode.eq(open);
         let is_stuck = self.mode.eq(stick);
 
         // Open points: close where they would sink, sticking if slow.
         let sinks = self.u_n.lt(isa.splat(-1e-12));
-        let slow = self.u_t.abs().le(ground.transition_speed);
-        let landing = F::select(slow, stick, forward.copysign(self.u_t));
-        let from_open = F::select(sinks, landing, open);
+        let slow = length::<F, D>(self.u_t).le(ground.transition_speed);
+        let from_open = F::select(sinks, F::select(slow, stick, slide), open);
 
         // Closed points: open where they would pull, else hold or slide. Friction opposes sliding.
         let normal = self.normal.max(zero);
         let limit = self.coefficient * normal + ground.adhesion;
-        let slips = self.held.abs().gt(limit);
-        let from_stick = F::select(slips, forward.copysign(-self.held), stick);
-        let reverses = (self.u_t * self.mode).lt(zero);
-        let from_slide = F::select(reverses, stick, self.mode);
+        let grip = length::<F, D>(self.held);
+        let slips = grip.gt(limit);
+        let from_stick = F::select(slips, slide, stick);
+        let reverses = along::<F, D>(self.u_t, self.slip).lt(zero);
+        let from_slide = F::select(reverses, stick, slide);
         let pulls = self.normal.lt(zero);
         let from_closed = F::select(pulls, open, F::select(is_stuck, from_stick, from_slide));
 
         let mode = F::select(is_open, from_open, from_closed);
         let normal = F::select(is_open, zero, normal);
         let friction = self.coefficient * normal + ground.adhesion;
-        let sliding = -friction.copysign(mode);
+        let pushed = direction::<F, D>([-self.held[0], -self.held[1]]);
+        let moving = direction::<F, D>(self.u_t);
         // Within the cone even where the passes run out: the next step starts from it.
-        let held = self.held.clamp(-limit, limit);
-        let tangential = F::select(mode.eq(stick), held, sliding);
-        let tangential = F::select(mode.eq(open) | is_open, zero, tangential);
-        After { mode, normal, tangential }
+        let within = if D == 2 { F::select(slips, limit, grip) } else { limit / grip.max(limit) };
+        let mut after = After { mode, normal, tangential: [zero; 2], slip: [zero; 2] };
+        for t in 0..D - 1 {
+            after.slip[t] = F::select(is_stuck, pushed[t], moving[t]);
+            let held = if D == 2 { -(within * pushed[t]) } else { self.held[t] * within };
+            let sliding = -(friction * after.slip[t]);
+            let tangential = F::select(mode.eq(stick), held, sliding);
+            after.tangential[t] = F::select(mode.eq(open) | is_open, zero, tangential);
+        }
+        after
     }
 }

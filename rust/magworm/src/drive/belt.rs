@@ -49,6 +49,25 @@ impl Layout {
             }
         }
     }
+
+    /// Where magnet `k` is in space along x and z, given the stage, the robot's centre along x, and sine and
+    /// cosine of the stage's yaw. A pair turns with the stage; a belt keeps its direction along x, and its
+    /// magnets turn where they are.
+    #[inline(always)]
+    pub fn place<F: Real>(
+        &self,
+        k: usize,
+        stage_x: F,
+        stage_z: F,
+        robot: F,
+        sin: F,
+        cos: F,
+    ) -> [F; 2] {
+        if self.circumference_m.is_some() {
+            return [self.position(k, stage_x, robot), stage_z];
+        }
+        [stage_x + cos * self.offset_m[k], stage_z - sin * self.offset_m[k]]
+    }
 }
 
 #[cfg(test)]

@@ -7,17 +7,40 @@ use crate::lanes::Real;
 pub struct StageModel {
     /// Furthest target ahead of or behind the robot's centre [m].
     pub reach_m: f64,
+    /// Furthest target to either side of it, in space [m].
+    pub lateral_reach_m: f64,
+    /// Furthest turn from the robot's heading, in space [rad].
+    pub yaw_reach_rad: f64,
     /// Lowest height [m].
     pub lowest_m: f64,
     /// Greatest height [m].
     pub highest_m: f64,
-    /// Greatest speed of each axis [m/s].
+    /// Greatest speed of each straight axis [m/s].
     pub speed_m_s: f64,
-    /// Greatest acceleration of each axis [m/s²].
+    /// Greatest acceleration of each straight axis [m/s²].
     pub acceleration_m_s2: f64,
+    /// Greatest speed of the yaw [rad/s].
+    pub yaw_speed_rad_s: f64,
+    /// Greatest acceleration of the yaw [rad/s²].
+    pub yaw_acceleration_rad_s2: f64,
 }
 
 impl StageModel {
+    /// Greatest acceleration of an axis: x, y, z [m/s²] or yaw [rad/s²].
+    #[inline(always)]
+    pub fn acceleration(&self, axis: usize) -> f64 {
+        if axis == 3 { self.yaw_acceleration_rad_s2 } else { self.acceleration_m_s2 }
+    }
+
+    /// Number of components of an action: yaw has one where it can move.
+    pub fn action_size(&self, dimensions: usize) -> usize {
+        match dimensions {
+            2 => 3,
+            _ if self.yaw_reach_rad > 0.0 => 5,
+            _ => 4,
+        }
+    }
+
     /// One step of one axis towards `target`, no faster than `limit`: (position, velocity) after it.
     ///
     /// Braking by a Δt every step, a stage that moves at v covers at most v²/2a + v Δt/2 + a Δt²/8 until it
@@ -25,7 +48,7 @@ impl StageModel {
     /// no more than a Δt it stops at once and may land on the target.
     #[inline(always)]
     pub fn advance<F: Real>(
-        &self,
+        acceleration: f64,
         position: F,
         velocity: F,
         target: F,
@@ -34,8 +57,8 @@ impl StageModel {
     ) -> (F, F) {
         let distance = target - position;
         let away = distance.abs();
-        let gain = self.acceleration_m_s2 * dt;
-        let braking = (away * (2.0 * self.acceleration_m_s2)).sqrt() - 0.5 * gain;
+        let gain = acceleration * dt;
+        let braking = (away * (2.0 * acceleration)).sqrt() - 0.5 * gain;
         let landing = (away / dt).min(away.splat(gain));
         let speed = braking.max(landing).min(limit);
         let aim = speed.copysign(distance);
@@ -50,14 +73,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const STAGE: StageModel = StageModel {
-        reach_m: 0.06,
-        lowest_m: -0.062,
-        highest_m: -0.022,
-        speed_m_s: 0.21,
-        acceleration_m_s2: 5.0,
-    };
-
     proptest! {
         #[test]
         fn reaches_its_target_without_overshoot_within_its_limits(
@@ -65,7 +80,7 @@ mod tests {
         ) {
             let (mut x, mut v) = (0.0, 0.0);
             for _ in 0..(15.0 / dt) as usize {
-                let (next, speed) = STAGE.advance(x, v, target, limit, dt);
+                let (next, speed) = StageModel::advance(5.0, x, v, target, limit, dt);
                 prop_assert!(speed.abs() <= limit * (1.0 + 1e-12));
                 prop_assert!((speed - v).abs() <= 5.0 * dt * (1.0 + 1e-12));
                 prop_assert!((next - target) * target.signum() <= 1e-12);

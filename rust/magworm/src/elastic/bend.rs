@@ -1,11 +1,11 @@
-//! Bending springs of the discrete elastic rod (Bergou 2008; planar form in Huang 2020, Goldberg 2019).
+//! Bending springs of the discrete elastic rod in the plane (Bergou 2008; planar form in Huang 2020, Goldberg 2019).
 //!
 //! E = ½ B κ² with φ the turning angle between the elements e and f at a node and κ either φ itself or
 //! 2 tan(φ/2) = 2 (t_e × t_f)/(1 + t_e · t_f). In the plane φ = θ_f − θ_e and ∂θ/∂e = n/|e| with
 //! n = ẑ × t, so ∂κ/∂e = −κ′ n_e/|e| and ∂κ/∂f = κ′ n_f/|f| with κ′ = dκ/dφ, which is 1 or 1 + κ²/4: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
-use super::{Equations, MOST, Places, Scheme, Spring, gather};
+use super::{Equations, MOST, Places, Scheme, Springs, gather};
 use crate::lanes::math::atan2;
 use crate::lanes::{Isa, Real};
 use crate::model::Model;
@@ -53,10 +53,12 @@ pub fn assemble<const W: usize, I: Isa<W>>(
         let over_nodes = [[-de[0], -de[1]], [de[0] - df[0], de[1] - df[1]], df];
         gather(isa, places, &spring.stencil, &over_nodes, &mut gradient);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
-        Spring { stencil: &spring.stencil, gradient: &gradient, strain, stiffness }.add(
-            isa,
-            &mut equations,
-            scheme,
-        );
+        let springs = Springs {
+            stencil: &spring.stencil,
+            gradients: [&gradient],
+            strains: [strain],
+            stiffness: [stiffness],
+        };
+        springs.add(isa, &mut equations, scheme);
     }
 }

@@ -1,20 +1,35 @@
 //! Node positions, tangents and lengths from the unknowns.
 
+use super::frames::{self, load3, store3};
+use super::vector::cross;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Real};
 use crate::model::{Anchor, Model};
 use crate::state::Block;
 
-/// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date with `q`.
+/// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date with `q`; in space also the
+/// frames of the elements.
 #[inline(always)]
-pub fn update<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
-    frames(isa, model, block);
-    nodes(isa, model, block);
-    elements(isa, model, block);
+pub fn update<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
+    if D == 2 {
+        angles(isa, model, block);
+    } else {
+        directors(isa, model, block);
+    }
+    nodes::<W, D, I>(isa, model, block);
+    elements::<W, D, I>(isa, model, block);
+    if D == 3 {
+        frames::transport(isa, model, block);
+    }
 }
 
+/// Axis of each magnet in the plane, from its angle.
 #[inline(always)]
-fn frames<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     let (q, frame) = (&*block.q, &mut *block.frame);
     for (body, dof) in model.coordinates.bodies.iter().enumerate() {
         let (sin, cos) = sin_cos(isa.load(&q[dof + 2]));
@@ -23,46 +38,73 @@ fn frames<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>
     }
 }
 
+/// Axes of each magnet in space, from the frame of its element.
 #[inline(always)]
-fn nodes<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let (director, frame) = (&*block.director, &mut *block.frame);
+    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
+        let up = load3(isa, director, 6 * magnet.element);
+        let t = load3(isa, director, 6 * magnet.element + 3);
+        store3(isa, &t, frame, 9 * body);
+        store3(isa, &up, frame, 9 * body + 3);
+        store3(isa, &cross(&t, &up), frame, 9 * body + 6);
+    }
+}
+
+#[inline(always)]
+fn nodes<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     let (q, frame, held) = (&*block.q, &*block.frame, &*block.held);
     let places = &mut *block.node;
+    let axes = if D == 2 { 2 } else { 9 };
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
         match *anchor {
             Anchor::Free { dof } => {
-                places[2 * node] = q[dof];
-                places[2 * node + 1] = q[dof + 1];
+                for k in 0..D {
+                    places[D * node + k] = q[dof + k];
+                }
             }
             Anchor::Rigid { body, side } => {
                 let dof = model.coordinates.bodies[body];
                 let arm = f64::from(side) * model.half_magnet_m;
-                for k in 0..2 {
-                    let place = isa.load(&q[dof + k]) + isa.load(&frame[2 * body + k]) * arm;
-                    isa.store(place, &mut places[2 * node + k]);
+                for k in 0..D {
+                    let place = isa.load(&q[dof + k]) + isa.load(&frame[axes * body + k]) * arm;
+                    isa.store(place, &mut places[D * node + k]);
                 }
             }
             Anchor::Fixed => {
-                places[2 * node] = held[2 * node];
-                places[2 * node + 1] = held[2 * node + 1];
+                for k in 0..D {
+                    places[D * node + k] = held[D * node + k];
+                }
             }
         }
     }
 }
 
 #[inline(always)]
-fn elements<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn elements<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
     let node = &*block.node;
     let (tangent, lengths, inverses) =
         (&mut *block.tangent, &mut *block.length, &mut *block.inverse_length);
     let one = isa.splat(1.0);
     for element in 0..model.mesh.elements.len() {
-        let (head, tail) = (2 * element, 2 * element + 2);
-        let x = isa.load(&node[tail]) - isa.load(&node[head]);
-        let y = isa.load(&node[tail + 1]) - isa.load(&node[head + 1]);
-        let length = (x * x + y * y).sqrt();
+        let (head, tail) = (D * element, D * element + D);
+        let mut edge = [one; D];
+        for k in 0..D {
+            edge[k] = isa.load(&node[tail + k]) - isa.load(&node[head + k]);
+        }
+        let mut square = edge[0] * edge[0];
+        for k in 1..D {
+            square = square + edge[k] * edge[k];
+        }
+        let length = square.sqrt();
         let inverse = one / length;
-        isa.store(x * inverse, &mut tangent[2 * element]);
-        isa.store(y * inverse, &mut tangent[2 * element + 1]);
+        for k in 0..D {
+            isa.store(edge[k] * inverse, &mut tangent[D * element + k]);
+        }
         isa.store(length, &mut lengths[element]);
         isa.store(inverse, &mut inverses[element]);
     }

@@ -8,19 +8,26 @@
 //! −Δt k s g − Δt (Δt + τ) k g gᵀ v⁺: one number on the right, a rank-one matrix on the left.
 //! *Explicit*: −Δt k (s + τ g·v) g, all on the right.
 
+//!
+//! Kernels are generic over the dimension D: 2 in the plane, 3 in space. In the plane a node bends in one
+//! way; in space in two, and it twists.
+
 mod bend;
+mod frames;
 mod kinematics;
 mod stretch;
+mod twist;
+mod vector;
 
 pub use bend::assemble as bend;
+pub use frames::{axes, turn};
 pub use kinematics::update as kinematics;
 pub use stretch::assemble as stretch;
+pub use twist::assemble as bend_and_twist;
+pub use vector::{cross, dot};
 
 use crate::lanes::Isa;
-use crate::model::Stencil;
-
-/// Most unknowns in one stencil: three nodes, each on a magnet of its own.
-const MOST: usize = 9;
+use crate::model::{MOST, Spin, Stencil};
 
 /// How the impulse of a spring enters the equations of a step.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +45,7 @@ pub struct Scheme<F> {
 /// Node positions and unknowns, for gradients over rigid nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct Places<'a, const W: usize> {
-    /// Node positions [m], shape [nodes × 2].
+    /// Node positions [m], shape [nodes × D].
     pub node: &'a [[f64; W]],
     /// Unknowns [m, rad], shape [unknowns].
     pub q: &'a [[f64; W]],
@@ -58,29 +65,61 @@ pub struct Equations<'a, const W: usize> {
 /// Gradient over a stencil's unknowns from gradients over its nodes, into `out`: an array that is
 /// returned would be copied.
 ///
-/// A rigid node at arm a from its magnet moves with δx = δX + δθ ẑ × a, hence g_θ = a × g.
+/// A rigid node at arm a from its magnet moves with δx = δX + δω × a, hence g_ω = a × g.
 #[inline(always)]
-pub fn gather<const W: usize, I: Isa<W>, const N: usize>(
+pub fn gather<const W: usize, const D: usize, I: Isa<W>, const N: usize>(
     isa: I,
     places: Places<'_, W>,
     stencil: &Stencil,
-    gradient: &[[I::F; 2]; N],
+    gradient: &[[I::F; D]; N],
     out: &mut [I::F; MOST],
 ) {
-    *out = [isa.splat(0.0); MOST];
+    for slot in 0..stencil.count {
+        out[slot] = isa.splat(0.0);
+    }
     for k in 0..N {
         if !stencil.moves[k] {
             continue;
         }
-        let [gx, gy] = gradient[k];
-        let slot = stencil.slots[k];
-        out[slot] = out[slot] + gx;
-        out[slot + 1] = out[slot + 1] + gy;
+        let (g, slot) = (gradient[k], stencil.slots[k]);
+        for axis in 0..D {
+            out[slot + axis] = out[slot + axis] + g[axis];
+        }
         if stencil.body[k].is_some() {
             let (dof, node) = (stencil.body_dofs[k], stencil.nodes[k]);
-            let ax = isa.load(&places.node[2 * node]) - isa.load(&places.q[dof]);
-            let ay = isa.load(&places.node[2 * node + 1]) - isa.load(&places.q[dof + 1]);
-            out[slot + 2] = out[slot + 2] + (ax * gy - ay * gx);
+            let mut arm = [isa.splat(0.0); D];
+            for axis in 0..D {
+                arm[axis] =
+                    isa.load(&places.node[D * node + axis]) - isa.load(&places.q[dof + axis]);
+            }
+            let (ax, ay, gx, gy) = (arm[0], arm[1], g[0], g[1]);
+            if D == 2 {
+                out[slot + 2] = out[slot + 2] + (ax * gy - ay * gx);
+            } else {
+                let (az, gz) = (arm[D - 1], g[D - 1]);
+                out[slot + 3] = out[slot + 3] + (ay * gz - az * gy);
+                out[slot + 4] = out[slot + 4] + (az * gx - ax * gz);
+                out[slot + 5] = out[slot + 5] + (ax * gy - ay * gx);
+            }
+        }
+    }
+}
+
+/// Adds the gradient over the twist of an element with tangent t. A rigid element twists by t·δω.
+#[inline(always)]
+pub fn gather_twist<F: crate::lanes::Real>(
+    spin: Spin,
+    t: &[F; 3],
+    gradient: F,
+    out: &mut [F; MOST],
+) {
+    match spin {
+        Spin::Fixed => {}
+        Spin::Free(slot) => out[slot] = out[slot] + gradient,
+        Spin::Rigid(slot) => {
+            for axis in 0..3 {
+                out[slot + axis] = out[slot + axis] + t[axis] * gradient;
+            }
         }
     }
 }
@@ -94,48 +133,67 @@ pub fn add_rank_one<const W: usize, I: Isa<W>>(
     gradient: &[I::F],
     weight: I::F,
 ) {
+    add_rank::<W, I, 1>(isa, matrix, stencil, [gradient], [weight]);
+}
+
+/// Adds Σ `weights` · g gᵀ over K gradients to a banded matrix; each entry is loaded and stored once.
+#[inline(always)]
+pub fn add_rank<const W: usize, I: Isa<W>, const K: usize>(
+    isa: I,
+    matrix: &mut [[f64; W]],
+    stencil: &Stencil,
+    gradients: [&[I::F]; K],
+    weights: [I::F; K],
+) {
     // The usual sizes unrolled: a magnet, free nodes, and nodes next to a magnet.
     match stencil.count {
-        3 => rank_one::<W, I, 3>(isa, matrix, stencil, gradient, weight),
-        4 => rank_one::<W, I, 4>(isa, matrix, stencil, gradient, weight),
-        5 => rank_one::<W, I, 5>(isa, matrix, stencil, gradient, weight),
-        6 => rank_one::<W, I, 6>(isa, matrix, stencil, gradient, weight),
-        7 => rank_one::<W, I, 7>(isa, matrix, stencil, gradient, weight),
+        3 => rank::<W, I, K, 3>(isa, matrix, stencil, gradients, weights),
+        4 => rank::<W, I, K, 4>(isa, matrix, stencil, gradients, weights),
+        5 => rank::<W, I, K, 5>(isa, matrix, stencil, gradients, weights),
+        6 => rank::<W, I, K, 6>(isa, matrix, stencil, gradients, weights),
+        7 => rank::<W, I, K, 7>(isa, matrix, stencil, gradients, weights),
         _ => {
             for row in 0..stencil.count {
-                rank_one_row(isa, matrix, stencil, gradient, weight, row);
+                rank_row(isa, matrix, stencil, gradients, weights, row);
             }
         }
     }
 }
 
 #[inline(always)]
-fn rank_one<const W: usize, I: Isa<W>, const N: usize>(
+fn rank<const W: usize, I: Isa<W>, const K: usize, const N: usize>(
     isa: I,
     matrix: &mut [[f64; W]],
     stencil: &Stencil,
-    gradient: &[I::F],
-    weight: I::F,
+    gradients: [&[I::F]; K],
+    weights: [I::F; K],
 ) {
     for row in 0..N {
-        rank_one_row(isa, matrix, stencil, gradient, weight, row);
+        rank_row(isa, matrix, stencil, gradients, weights, row);
     }
 }
 
 #[inline(always)]
-fn rank_one_row<const W: usize, I: Isa<W>>(
+fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
     isa: I,
     matrix: &mut [[f64; W]],
     stencil: &Stencil,
-    gradient: &[I::F],
-    weight: I::F,
+    gradients: [&[I::F]; K],
+    weights: [I::F; K],
     row: usize,
 ) {
-    let scaled = gradient[row] * weight;
+    let mut scaled = weights;
+    for k in 0..K {
+        scaled[k] = gradients[k][row] * weights[k];
+    }
     let first = row * (row + 1) / 2;
     for column in 0..=row {
         let entry = &mut matrix[stencil.entries[first + column]];
-        isa.store(isa.load(entry) + scaled * gradient[column], entry);
+        let mut sum = isa.load(entry);
+        for k in 0..K {
+            sum = sum + scaled[k] * gradients[k][column];
+        }
+        isa.store(sum, entry);
     }
 }
 
@@ -169,16 +227,16 @@ pub fn rate<const W: usize, I: Isa<W>>(
     sum
 }
 
-/// A spring at the start of the step.
-struct Spring<'a, F> {
+/// K springs over the same unknowns, at the start of the step.
+struct Springs<'a, F, const K: usize> {
     stencil: &'a Stencil,
-    gradient: &'a [F; MOST],
-    strain: F,
-    stiffness: F,
+    gradients: [&'a [F; MOST]; K],
+    strains: [F; K],
+    stiffness: [F; K],
 }
 
-impl<F> Spring<'_, F> {
-    /// Adds its impulse to the equations of a step.
+impl<F, const K: usize> Springs<'_, F, K> {
+    /// Adds their impulses to the equations of a step.
     #[inline(always)]
     fn add<const W: usize, I: Isa<W, F = F>>(
         &self,
@@ -189,14 +247,25 @@ impl<F> Spring<'_, F> {
         F: crate::lanes::Real<Mask = I::M>,
     {
         let dt = scheme.dt;
-        let force = if scheme.implicit {
-            let weight = (scheme.damping_s + dt) * self.stiffness * dt;
-            add_rank_one(isa, equations.matrix, self.stencil, self.gradient, weight);
-            self.strain * self.stiffness
-        } else {
-            let rate = rate(isa, equations.v, self.stencil, self.gradient);
-            (self.strain + rate * scheme.damping_s) * self.stiffness
-        };
-        add_scaled(isa, equations.right, self.stencil, self.gradient, -(force * dt));
+        if scheme.implicit {
+            let factor = scheme.damping_s + dt;
+            let mut weights = self.stiffness;
+            let mut gradients = [&self.gradients[0][..]; K];
+            for k in 0..K {
+                weights[k] = factor * self.stiffness[k] * dt;
+                gradients[k] = &self.gradients[k][..];
+            }
+            add_rank(isa, equations.matrix, self.stencil, gradients, weights);
+        }
+        for k in 0..K {
+            let gradient = self.gradients[k];
+            let force = if scheme.implicit {
+                self.strains[k] * self.stiffness[k]
+            } else {
+                let rate = rate(isa, equations.v, self.stencil, gradient);
+                (self.strains[k] + rate * scheme.damping_s) * self.stiffness[k]
+            };
+            add_scaled(isa, equations.right, self.stencil, gradient, -(force * dt));
+        }
     }
 }

@@ -1,17 +1,17 @@
 //! Axial springs (Bergou 2008, planar as in Huang 2020): E = ½ (EA/l) (|e| − l)².
 //!
 //! Gradient of |e| over the two nodes: (−t, t). In tension the force also turns with the element;
-//! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ in the plane and is taken along
-//! implicitly. In compression it would be negative and is left out of the matrix.
+//! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ of each normal n, one in the plane and two
+//! in space, and is taken along implicitly. In compression it would be negative and is left out of the matrix.
 
-use super::{Equations, MOST, Places, Scheme, Spring, add_rank_one, gather};
+use super::{Equations, MOST, Places, Scheme, Springs, add_rank_one, gather};
 use crate::lanes::{Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
 
 /// Adds all axial springs to the equations of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(
+pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
@@ -20,26 +20,54 @@ pub fn assemble<const W: usize, I: Isa<W>>(
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
     let (tangent, length, inverse_length) =
         (&*block.tangent, &*block.length, &*block.inverse_length);
+    let (director, side) = (&*block.director, &*block.side);
     let places = Places { node: &block.node, q: &block.q };
     let mut equations = Equations { matrix, right, v };
     let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.stretch {
         let e = spring.element;
-        let t = [isa.load(&tangent[2 * e]), isa.load(&tangent[2 * e + 1])];
+        let mut t = [isa.splat(0.0); D];
+        for axis in 0..D {
+            t[axis] = isa.load(&tangent[D * e + axis]);
+        }
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
         let strain = isa.load(&length[e]) - spring.rest_m;
-        gather(isa, places, &spring.stencil, &[[-t[0], -t[1]], t], &mut gradient);
-        Spring { stencil: &spring.stencil, gradient: &gradient, strain, stiffness }.add(
-            isa,
-            &mut equations,
-            scheme,
-        );
-        if scheme.implicit {
-            let across = [[t[1], -t[0]], [-t[1], t[0]]];
-            gather(isa, places, &spring.stencil, &across, &mut gradient);
-            let tension = strain.max(isa.splat(0.0)) * stiffness;
-            let weight = tension * isa.load(&inverse_length[e]) * (scheme.dt * scheme.dt);
+        gather::<W, D, I, 2>(isa, places, &spring.stencil, &opposed(&t), &mut gradient);
+        let springs = Springs {
+            stencil: &spring.stencil,
+            gradients: [&gradient],
+            strains: [strain],
+            stiffness: [stiffness],
+        };
+        springs.add(isa, &mut equations, scheme);
+        if !scheme.implicit {
+            continue;
+        }
+        let tension = strain.max(isa.splat(0.0)) * stiffness;
+        let weight = tension * isa.load(&inverse_length[e]) * (scheme.dt * scheme.dt);
+        let mut n = t;
+        for normal in 1..D {
+            if D == 2 {
+                n[0] = -t[1];
+                n[1] = t[0];
+            } else {
+                let rows = if normal == 1 { &director[6 * e..] } else { &side[3 * e..] };
+                for axis in 0..D {
+                    n[axis] = isa.load(&rows[axis]);
+                }
+            }
+            gather::<W, D, I, 2>(isa, places, &spring.stencil, &opposed(&n), &mut gradient);
             add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, weight);
         }
     }
+}
+
+/// (−a, a): gradients over the nodes of an element of the length along a.
+#[inline(always)]
+fn opposed<F: Real, const D: usize>(a: &[F; D]) -> [[F; D]; 2] {
+    let mut pair = [*a; 2];
+    for axis in 0..D {
+        pair[0][axis] = -a[axis];
+    }
+    pair
 }

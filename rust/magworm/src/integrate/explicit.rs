@@ -12,20 +12,20 @@ use crate::state::Block;
 
 /// Adds the elastic terms and the constraints of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(
+pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    springs(isa, model, block, scheme);
+    springs::<W, D, I>(isa, model, block, scheme);
     for tie in &model.coordinates.ties {
-        constrain(isa, model, block, tie, scheme.dt);
+        constrain::<W, D, I>(isa, model, block, tie, scheme.dt);
     }
 }
 
 #[inline(always)]
-fn constrain<const W: usize, I: Isa<W>>(
+fn constrain<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
@@ -35,19 +35,27 @@ fn constrain<const W: usize, I: Isa<W>>(
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
     let reach = f64::from(tie.side) * model.half_magnet_m;
-    let arm = [
-        isa.load(&block.frame[2 * tie.body]) * reach,
-        isa.load(&block.frame[2 * tie.body + 1]) * reach,
-    ];
-    // ∂(X + R r)/∂θ = ẑ × arm.
-    let turn = [-arm[1], arm[0]];
-    for k in 0..2 {
+    let axes = if D == 2 { 2 } else { 9 };
+    let mut arm = [isa.splat(0.0); D];
+    for k in 0..D {
+        arm[k] = isa.load(&block.frame[axes * tie.body + k]) * reach;
+    }
+    for k in 0..D {
         let row = tie.dof + k;
         let strayed = isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
         isa.store(-(strayed / dt), &mut block.right[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));
-        set(isa, model, block, row, body + 2, -turn[k]);
+        if D == 2 {
+            // ∂(X + R r)/∂θ = ẑ × arm.
+            let turn = if k == 0 { arm[1] } else { -arm[0] };
+            set(isa, model, block, row, body + 2, turn);
+        } else {
+            // ∂(ω × arm)_k/∂ω: a row of the skew matrix of −arm.
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            set(isa, model, block, row, body + 3 + next, -arm[last % D]);
+            set(isa, model, block, row, body + 3 + last, arm[next % D]);
+        }
     }
 }
 

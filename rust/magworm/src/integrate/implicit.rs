@@ -13,11 +13,11 @@ use crate::state::Block;
 
 /// Adds the elastic terms of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(
+pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    springs(isa, model, block, scheme);
+    springs::<W, D, I>(isa, model, block, scheme);
 }

@@ -1,9 +1,14 @@
 //! Impulses of gravity and magnets.
 
 use crate::drive::DriveModel;
-use crate::lanes::Isa;
-use crate::model::{Magnetics, Model, PairModel};
+use crate::elastic;
+use crate::lanes::math::sin_cos;
+use crate::lanes::{Isa, Real};
+use crate::model::{Magnetics, Model, PairModel, body_size};
 use crate::state::Block;
+
+/// Components of a wrench in space.
+const WRENCH: usize = 6;
 
 /// Adds Δt m g to the right-hand side. Multipliers have no mass and rotations no weight.
 #[inline(always)]
@@ -17,26 +22,32 @@ pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
 
 /// Adds Δt times the magnetic wrench on every body magnet.
 #[inline(always)]
-pub fn magnets<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
     let program = &model.program;
     if program.magnetics.is_none() && program.uniform_field.is_none() {
         return;
     }
     let robot = crate::step::robot_centre(isa, model, block);
+    let turn = if D == 3 { sin_cos(isa.load(&block.stage[3])) } else { (robot, robot) };
     for body in 0..model.magnets() {
         let dof = model.coordinates.bodies[body];
-        let mut wrench = [isa.splat(0.0); 3];
+        let mut wrench = [isa.splat(0.0); WRENCH];
         if let (Some(magnetics), Some(drive)) = (&program.magnetics, &program.drive) {
-            wrench = drive_wrench(isa, magnetics, drive, block, body, dof, robot);
+            if D == 2 {
+                planar_wrench(isa, magnetics, drive, block, [body, dof], robot, &mut wrench);
+            } else {
+                let place = [body, dof];
+                spatial_wrench(isa, magnetics, drive, block, place, robot, turn, &mut wrench);
+            }
         }
-        if let Some(field) = &program.uniform_field {
-            let [bx, by] = [isa.splat(field.field_t[0]), isa.splat(field.field_t[1])];
-            let cos = isa.load(&block.frame[2 * body]);
-            let sin = isa.load(&block.frame[2 * body + 1]);
-            let remanence = isa.load(&block.remanence[body]);
-            wrench[2] = wrench[2] + field.magnet.torque(bx, by, cos, sin, remanence);
+        if program.uniform_field.is_some() {
+            uniform_torque::<W, D, I>(isa, model, block, body, &mut wrench);
         }
-        for k in 0..3 {
+        for k in 0..body_size(D) {
             let entry = &mut block.right[dof + k];
             isa.store(isa.load(entry) + wrench[k] * model.step_s, entry);
         }
@@ -44,32 +55,106 @@ pub fn magnets<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
 }
 
 #[inline(always)]
-fn drive_wrench<const W: usize, I: Isa<W>>(
+fn uniform_torque<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &Block<W>,
+    body: usize,
+    wrench: &mut [I::F; WRENCH],
+) {
+    let Some(field) = &model.program.uniform_field else { return };
+    let [bx, by, bz] =
+        [isa.splat(field.field_t[0]), isa.splat(field.field_t[1]), isa.splat(field.field_t[2])];
+    let remanence = isa.load(&block.remanence[body]);
+    if D == 2 {
+        let cos = isa.load(&block.frame[2 * body]);
+        let sin = isa.load(&block.frame[2 * body + 1]);
+        wrench[2] = wrench[2] + field.magnet.torque(bx, by, cos, sin, remanence);
+    } else {
+        let [_, up, _] = elastic::axes(isa, block, body);
+        let torque = field.magnet.torque_in_space([bx, by, bz], &up, remanence);
+        for k in 0..3 {
+            wrench[3 + k] = wrench[3 + k] + torque[k];
+        }
+    }
+}
+
+/// (F_x, F_y, T_z) of all drive magnets.
+#[inline(always)]
+fn planar_wrench<const W: usize, I: Isa<W>>(
     isa: I,
     magnetics: &Magnetics,
     drive: &DriveModel,
     block: &mut Block<W>,
-    body: usize,
-    dof: usize,
+    [body, dof]: [usize; 2],
     robot: I::F,
-) -> [I::F; 3] {
+    total: &mut [I::F; WRENCH],
+) {
     let (x, y) = (isa.load(&block.q[dof]), isa.load(&block.q[dof + 1]));
     let cos = isa.load(&block.frame[2 * body]);
     let sin = isa.load(&block.frame[2 * body + 1]);
     let (stage_x, stage_y) = (isa.load(&block.stage[0]), isa.load(&block.stage[1]));
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
-    let mut total = [isa.splat(0.0); 3];
     for k in 0..drive.layout.offset_m.len() {
         let dx = x - drive.layout.position(k, stage_x, robot);
         let strength = remanence * drive.layout.polarity[k];
         let wrench = match &magnetics.pair {
             PairModel::Cuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
             PairModel::Dipole(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
+            PairModel::SpatialCuboid(_) | PairModel::SpatialDipole(_) => continue,
         };
         for axis in 0..3 {
             total[axis] = total[axis] + wrench[axis] * magnetics.terms[axis];
         }
         block.counters.wrenches += 1;
     }
-    total
+}
+
+/// Force and torque of all drive magnets, which stand turned about the vertical by the stage's yaw.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)] // a kernel: a struct of arguments would be copied
+fn spatial_wrench<const W: usize, I: Isa<W>>(
+    isa: I,
+    magnetics: &Magnetics,
+    drive: &DriveModel,
+    block: &mut Block<W>,
+    [body, dof]: [usize; 2],
+    robot: I::F,
+    (sin, cos): (I::F, I::F),
+    total: &mut [I::F; WRENCH],
+) {
+    let stage = [isa.load(&block.stage[0]), isa.load(&block.stage[1]), isa.load(&block.stage[2])];
+    let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
+    let mut axes = elastic::axes(isa, block, body);
+    for k in 0..3 {
+        axes[k] = turned(&axes[k], cos, -sin);
+    }
+    for k in 0..drive.layout.offset_m.len() {
+        let [x, z] = drive.layout.place(k, stage[0], stage[2], robot, sin, cos);
+        let offset = [
+            isa.load(&block.q[dof]) - x,
+            isa.load(&block.q[dof + 1]) - stage[1],
+            isa.load(&block.q[dof + 2]) - z,
+        ];
+        let offset = turned(&offset, cos, -sin);
+        let wrench = match &magnetics.pair {
+            PairModel::SpatialCuboid(pair) => pair.wrench(offset, axes),
+            PairModel::SpatialDipole(pair) => pair.wrench(&offset, &axes[1]),
+            PairModel::Cuboid(_) | PairModel::Dipole(_) => continue,
+        };
+        let strength = remanence * drive.layout.polarity[k];
+        let force = turned(&[wrench[0], wrench[1], wrench[2]], cos, sin);
+        let torque = turned(&[wrench[3], wrench[4], wrench[5]], cos, sin);
+        for axis in 0..3 {
+            total[axis] = total[axis] + force[axis] * strength * magnetics.terms[axis];
+            total[3 + axis] = total[3 + axis] + torque[axis] * strength * magnetics.terms[3 + axis];
+        }
+        block.counters.wrenches += 1;
+    }
+}
+
+/// A vector turned about the vertical, anticlockwise seen from above: x goes towards −z.
+#[inline(always)]
+fn turned<F: Real>(a: &[F; 3], cos: F, sin: F) -> [F; 3] {
+    [a[0] * cos + a[2] * sin, a[1], a[2] * cos - a[0] * sin]
 }

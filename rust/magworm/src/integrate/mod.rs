@@ -15,15 +15,22 @@ use crate::state::Block;
 
 /// Assembles matrix and right-hand side of a step, without contacts.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
     block.matrix.fill([0.0; W]);
     inertia(isa, model, block);
+    if D == 3 {
+        rotary_inertia(isa, model, block);
+    }
     loads::gravity(isa, model, block);
-    loads::magnets(isa, model, block);
+    loads::magnets::<W, D, I>(isa, model, block);
     let scheme = scheme(isa, model, block);
     match model.scene.solver.integrator {
-        Integrator::Implicit => implicit::assemble(isa, model, block, scheme),
-        Integrator::Explicit => explicit::assemble(isa, model, block, scheme),
+        Integrator::Implicit => implicit::assemble::<W, D, I>(isa, model, block, scheme),
+        Integrator::Explicit => explicit::assemble::<W, D, I>(isa, model, block, scheme),
     }
 }
 
@@ -34,6 +41,31 @@ fn inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W
         let mass = isa.load(&block.mass[dof]);
         isa.store(mass, &mut block.matrix[model.band.at(dof, dof)]);
         isa.store(mass * isa.load(&block.v[dof]), &mut block.right[dof]);
+    }
+}
+
+/// The same for the rotation of the magnets in space, whose inertia Σ I a aᵀ turns with their axes a.
+#[inline(always)]
+fn rotary_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
+        let axes = elastic::axes(isa, block, body);
+        let first = dof + 3;
+        for row in 0..3 {
+            let mut momentum = isa.splat(0.0);
+            for column in 0..3 {
+                let mut entry = isa.splat(0.0);
+                for k in 0..3 {
+                    let moment = isa.load(&block.mass[first + k]);
+                    entry = entry + moment * axes[k][row] * axes[k][column];
+                }
+                momentum = momentum + entry * isa.load(&block.v[first + column]);
+                if column <= row {
+                    let place = model.band.at(first + row, first + column);
+                    isa.store(entry, &mut block.matrix[place]);
+                }
+            }
+            isa.store(momentum, &mut block.right[first + row]);
+        }
     }
 }
 
@@ -50,12 +82,16 @@ fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
 
 /// Adds the springs of the rod.
 #[inline(always)]
-fn springs<const W: usize, I: Isa<W>>(
+fn springs<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    elastic::stretch(isa, model, block, scheme);
-    elastic::bend(isa, model, block, scheme);
+    elastic::stretch::<W, D, I>(isa, model, block, scheme);
+    if D == 2 {
+        elastic::bend(isa, model, block, scheme);
+    } else {
+        elastic::bend_and_twist(isa, model, block, scheme);
+    }
 }

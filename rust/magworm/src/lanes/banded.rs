@@ -2,14 +2,14 @@
 //!
 //! A matrix is stored by rows of its lower half: row r holds columns r − h … r, h the half-bandwidth.
 //! Above the first and below the last row stand h ghost rows of zeros, so that no loop has to know where
-//! the matrix ends. The half-bandwidth is one of four, known when the kernels are compiled: inner
+//! the matrix ends. The half-bandwidth is one of a few, known when the kernels are compiled: inner
 //! loops unroll and their numbers stay in registers.
 
 use super::Isa;
 
-/// Half-bandwidths that kernels are compiled for: rods, worms, magnets next to each other, and nodes that
-/// multipliers tie to a magnet from both sides.
-const COMPILED: [usize; 4] = [5, 6, 8, 10];
+/// Half-bandwidths that kernels are compiled for. In the plane: rods, worms, magnets next to each other, and
+/// nodes that multipliers tie to a magnet from both sides; in space: rods, worms, magnets next to each other.
+const COMPILED: [usize; 7] = [5, 6, 8, 10, 11, 13, 16];
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,12 +27,12 @@ impl Band {
     /// Makes room for entries between all pairs of the given unknowns.
     ///
     /// # Panics
-    /// If two of them are more than ten apart: no stencil reaches further.
+    /// If two of them are more than sixteen apart: no stencil reaches further.
     pub fn couple(&mut self, dofs: &[usize]) {
         let (Some(lowest), Some(highest)) = (dofs.iter().min(), dofs.iter().max()) else { return };
         let needed = self.half_bandwidth.max(highest - lowest);
         let compiled = COMPILED.into_iter().find(|&h| h >= needed);
-        self.half_bandwidth = compiled.expect("a stencil reaches no further than ten unknowns");
+        self.half_bandwidth = compiled.expect("a stencil reaches no further than sixteen unknowns");
     }
 
     /// Number of rows.
@@ -64,7 +64,10 @@ impl Band {
             5 => factor::<W, I, 5, 6>(isa, self.size, matrix),
             6 => factor::<W, I, 6, 7>(isa, self.size, matrix),
             8 => factor::<W, I, 8, 9>(isa, self.size, matrix),
-            _ => factor::<W, I, 10, 11>(isa, self.size, matrix),
+            10 => factor::<W, I, 10, 11>(isa, self.size, matrix),
+            11 => factor::<W, I, 11, 12>(isa, self.size, matrix),
+            13 => factor::<W, I, 13, 14>(isa, self.size, matrix),
+            _ => factor::<W, I, 16, 17>(isa, self.size, matrix),
         }
     }
 
@@ -80,7 +83,10 @@ impl Band {
             5 => solve::<W, I, 5, 6>(isa, factored, right),
             6 => solve::<W, I, 6, 7>(isa, factored, right),
             8 => solve::<W, I, 8, 9>(isa, factored, right),
-            _ => solve::<W, I, 10, 11>(isa, factored, right),
+            10 => solve::<W, I, 10, 11>(isa, factored, right),
+            11 => solve::<W, I, 11, 12>(isa, factored, right),
+            13 => solve::<W, I, 13, 14>(isa, factored, right),
+            _ => solve::<W, I, 16, 17>(isa, factored, right),
         }
     }
 }
@@ -181,8 +187,8 @@ mod tests {
         #[test]
         fn solves_like_a_dense_factorisation(
             numbers in prop::collection::vec(-1.0..1.0f64, 97),
-            span in 1usize..11,
-            size in 11usize..30,
+            span in 1usize..17,
+            size in 17usize..30,
         ) {
             let mut band = Band::diagonal(size);
             band.couple(&[0, span]);

@@ -71,6 +71,49 @@ impl PlanarDipole {
     }
 }
 
+/// Drive and body magnet as two point dipoles in space, the drive's moment along y, both of 1 T.
+///
+/// F = 3/(4πμ0 r⁴) [a (b·e) + b (a·e) + e (a·b) − 5 e (a·e)(b·e)] (Yung, Landecker & Villani 1998) with the
+/// moments a of the drive and b of the body and e from the drive to the body; T = b × B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialDipole {
+    /// Product of both volumes over 4π μ0 [m⁶·A²/N].
+    scale: f64,
+}
+
+impl SpatialDipole {
+    /// The dipoles of two cuboids.
+    pub fn new(drive: Cuboid, body: Cuboid) -> Self {
+        let volumes = drive.volume_m3() * body.volume_m3();
+        SpatialDipole { scale: volumes / (4.0 * std::f64::consts::PI * MU_0) }
+    }
+
+    /// Force [N] and torque [N·m] on a body at `offset` [m] from the drive, with its moment along `up`.
+    #[inline(always)]
+    pub fn wrench<F: Real>(&self, offset: &[F; 3], up: &[F; 3]) -> [F; 6] {
+        let [x, y, z] = *offset;
+        let inverse_square = x.splat(1.0) / (x * x + y * y + z * z);
+        let inverse = inverse_square.sqrt();
+        let e = [x * inverse, y * inverse, z * inverse];
+        let along = up[0] * e[0] + up[1] * e[1] + up[2] * e[2];
+        let cubed = inverse * inverse_square * self.scale;
+        let fourth = cubed * inverse * 3.0;
+        let radial = up[1] - e[1] * along * 5.0;
+        let force = [
+            fourth * (up[0] * e[1] + e[0] * radial),
+            fourth * (along + up[1] * e[1] + e[1] * radial),
+            fourth * (up[2] * e[1] + e[2] * radial),
+        ];
+        let b = [e[0] * e[1] * 3.0, e[1] * e[1] * 3.0 - 1.0, e[2] * e[1] * 3.0];
+        let torque = [
+            cubed * (up[1] * b[2] - up[2] * b[1]),
+            cubed * (up[2] * b[0] - up[0] * b[2]),
+            cubed * (up[0] * b[1] - up[1] * b[0]),
+        ];
+        [force[0], force[1], force[2], torque[0], torque[1], torque[2]]
+    }
+}
+
 /// Flux density B [T] of a dipole at the origin, at `position_m` from it.
 ///
 /// `moment_t_m3`: remanence times volume, that is μ0 m [T·m³].

@@ -5,7 +5,7 @@
 //! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: [`field`] |
 //! | `planar` | wrench between two cuboids in the simulator's plane, in lanes: [`PlanarPair`] |
 //! | `wrench` | wrench in space: [`wrench()`]; in lanes: [`SpatialPair`] |
-//! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`] |
+//! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`], [`SpatialDipole`] |
 //! | `uniform` | torque of a uniform field: [`UniformField`] |
 //! | `quadrature` | Gauss–Legendre rules: [`GaussLegendre`] |
 //!
@@ -29,7 +29,7 @@ mod uniform;
 mod wrench;
 
 pub use cuboid::{field, field_t, unit_field, unit_field_outside};
-pub use dipole::{PlanarDipole, dipole_field_t, dipole_wrench};
+pub use dipole::{PlanarDipole, SpatialDipole, dipole_field_t, dipole_wrench};
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
 pub use uniform::UniformField;

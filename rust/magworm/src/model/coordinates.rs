@@ -1,9 +1,14 @@
 //! Unknowns of the equations of motion and how the nodes hang on them.
 //!
-//! *Reduced*: a free node has (x, y); a rigid magnet has (x, y, θ) and carries its two end nodes.
-//! *With multipliers* (the paper): every node has (x, y), each magnet (x, y, θ), and each end of a
-//! magnet two Lagrange multipliers that tie the node to it. Unknowns are numbered along the body,
-//! so that every matrix is banded.
+//! *Reduced*: a free node has its position; a rigid magnet has position and rotation and carries its two
+//! end nodes. *With multipliers* (the paper): every node has its position, each magnet position and
+//! rotation, and each end of a magnet Lagrange multipliers that tie the node to it. Unknowns are numbered
+//! along the body, so that every matrix is banded.
+//!
+//! | | node | magnet | soft element | tie |
+//! |---|---|---|---|---|
+//! | plane | x, y | x, y, θ | | 2 |
+//! | space | x, y, z | x, y, z, rotation about x, y, z | twist about its tangent | 3 |
 
 use super::mesh::Mesh;
 use crate::lanes::banded::Band;
@@ -20,7 +25,7 @@ pub enum Unknowns {
 /// How a node follows the unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its x is unknown `dof`, its y the next.
+    /// Its x is unknown `dof`, its y the next, then z in space.
     Free {
         /// Unknown of x.
         dof: usize,
@@ -36,10 +41,10 @@ pub enum Anchor {
     Fixed,
 }
 
-/// A node tied to a magnet by two multipliers.
+/// A node tied to a magnet by a multiplier for each direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Tie {
-    /// First multiplier (x); y is the next.
+    /// First multiplier (x); y is the next, then z in space.
     pub dof: usize,
     /// The tied node.
     pub node: usize,
@@ -52,21 +57,35 @@ pub struct Tie {
 /// The numbering of the unknowns.
 #[derive(Clone, Debug)]
 pub struct Coordinates {
+    /// 2 in the plane, 3 in space.
+    pub dimensions: usize,
     /// Number of unknowns.
     pub count: usize,
     /// For each node.
     pub anchors: Vec<Anchor>,
-    /// First unknown (x, then y, θ) of each magnet.
+    /// First unknown of each magnet: its position, then its rotation.
     pub bodies: Vec<usize>,
+    /// In space the twist of each soft element that is not clamped.
+    pub twists: Vec<Option<usize>>,
+    /// The magnet that makes an element rigid.
+    pub rigid: Vec<Option<usize>>,
     /// Multipliers; none in reduced coordinates.
     pub ties: Vec<Tie>,
 }
 
 impl Coordinates {
-    /// Numbers the unknowns of a mesh.
-    pub fn new(mesh: &Mesh, unknowns: Unknowns) -> Self {
+    /// Numbers the unknowns of a mesh in the plane (2) or in space (3).
+    pub fn new(mesh: &Mesh, unknowns: Unknowns, dimensions: usize) -> Self {
         let nodes = mesh.arc_m.len();
-        let mut this = Self { count: 0, anchors: Vec::new(), bodies: Vec::new(), ties: Vec::new() };
+        let mut this = Self {
+            dimensions,
+            count: 0,
+            anchors: Vec::new(),
+            bodies: Vec::new(),
+            twists: Vec::new(),
+            rigid: mesh.elements.iter().map(|element| element.magnet).collect(),
+            ties: Vec::new(),
+        };
         let ends = magnet_ends(mesh);
         for node in 0..nodes {
             match ends[node] {
@@ -74,13 +93,28 @@ impl Coordinates {
                 None if node < mesh.fixed_nodes => this.anchors.push(Anchor::Fixed),
                 None => this.number_free(),
             }
+            if node < mesh.elements.len() {
+                this.number_twist(mesh, node);
+            }
         }
         this
     }
 
+    /// Unknowns of a magnet.
+    pub fn body_size(&self) -> usize {
+        body_size(self.dimensions)
+    }
+
     fn number_free(&mut self) {
-        let dof = self.take(2);
+        let dof = self.take(self.dimensions);
         self.anchors.push(Anchor::Free { dof });
+    }
+
+    fn number_twist(&mut self, mesh: &Mesh, element: usize) {
+        let clamped = element + 1 < mesh.fixed_nodes;
+        let twists = self.dimensions == 3 && mesh.elements[element].magnet.is_none() && !clamped;
+        let dof = twists.then(|| self.take(1));
+        self.twists.push(dof);
     }
 
     fn number_magnet_end(&mut self, node: usize, body: usize, side: i8, unknowns: Unknowns) {
@@ -88,7 +122,7 @@ impl Coordinates {
         match unknowns {
             Unknowns::Reduced => {
                 if head {
-                    let dof = self.take(3);
+                    let dof = self.take(self.body_size());
                     self.bodies.push(dof);
                 }
                 self.anchors.push(Anchor::Rigid { body, side });
@@ -99,10 +133,10 @@ impl Coordinates {
                 if head {
                     self.number_free();
                 }
-                let dof = self.take(2);
+                let dof = self.take(self.dimensions);
                 self.ties.push(Tie { dof, node, body, side });
                 if head {
-                    let dof = self.take(3);
+                    let dof = self.take(self.body_size());
                     self.bodies.push(dof);
                 } else {
                     self.number_free();
@@ -127,7 +161,27 @@ fn magnet_ends(mesh: &Mesh) -> Vec<Option<(usize, i8)>> {
     ends
 }
 
-/// The unknowns that up to three nodes hang on, in ascending order, and where each node's part is.
+/// Unknowns of a magnet: its position, and one rotation in the plane or three in space.
+pub const fn body_size(dimensions: usize) -> usize {
+    if dimensions == 2 { 3 } else { 6 }
+}
+
+/// Most unknowns in one stencil: two magnets and a node between them, with the twist of two elements.
+pub const MOST: usize = 17;
+
+/// What the twist of an element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spin {
+    /// Nothing: the element is clamped, or the motion is in the plane.
+    Fixed,
+    /// An unknown of its own, at this place of the stencil.
+    Free(usize),
+    /// The part along the tangent of its magnet's rotation, whose first unknown is at this place.
+    Rigid(usize),
+}
+
+/// The unknowns that up to three nodes and the elements between them hang on, in ascending order, and
+/// where each one's part is.
 #[derive(Clone, Copy, Debug)]
 pub struct Stencil {
     /// The nodes.
@@ -135,10 +189,10 @@ pub struct Stencil {
     /// How many of them are used.
     pub node_count: usize,
     /// The unknowns.
-    pub dofs: [usize; 9],
+    pub dofs: [usize; MOST],
     /// How many of them are used.
     pub count: usize,
-    /// Place in `dofs` of each node's x (y is the next, θ of a rigid one the third).
+    /// Place in `dofs` of each node's x; the other directions follow, then its magnet's rotation.
     pub slots: [usize; 3],
     /// The magnet each node is rigidly on.
     pub body: [Option<usize>; 3],
@@ -146,46 +200,79 @@ pub struct Stencil {
     pub body_dofs: [usize; 3],
     /// Whether each node can move.
     pub moves: [bool; 3],
+    /// Twist of the elements between the nodes.
+    pub spins: [Spin; 2],
     /// Places in the banded matrix of all pairs of unknowns, lower triangle by rows.
-    pub entries: [usize; 45],
+    pub entries: [usize; MOST * (MOST + 1) / 2],
 }
 
 impl Stencil {
-    /// The stencil of `nodes`, which must be consecutive along the body.
+    /// The stencil of the positions of `nodes`, which must be consecutive along the body.
     pub fn new(coordinates: &Coordinates, nodes: &[usize]) -> Self {
+        Self::along(coordinates, nodes, false)
+    }
+
+    /// The stencil of `nodes` and of the twist of the elements between them.
+    pub fn with_twist(coordinates: &Coordinates, nodes: &[usize]) -> Self {
+        Self::along(coordinates, nodes, true)
+    }
+
+    /// The stencil of a magnet itself.
+    pub fn of_body(coordinates: &Coordinates, body: usize) -> Self {
+        let mut this = Self::along(coordinates, &[], false);
+        this.slot_of(coordinates.bodies[body], coordinates.body_size());
+        this
+    }
+
+    fn along(coordinates: &Coordinates, nodes: &[usize], twist: bool) -> Self {
         let mut this = Self {
             nodes: [0; 3],
             node_count: nodes.len(),
-            dofs: [0; 9],
+            dofs: [0; MOST],
             count: 0,
             slots: [0; 3],
             body: [None; 3],
             body_dofs: [0; 3],
             moves: [false; 3],
-            entries: [0; 45],
+            spins: [Spin::Fixed; 2],
+            entries: [0; MOST * (MOST + 1) / 2],
         };
         for (k, &node) in nodes.iter().enumerate() {
-            this.nodes[k] = node;
-            let (first, size) = match coordinates.anchors[node] {
-                Anchor::Free { dof } => (dof, 2),
-                Anchor::Rigid { body, .. } => {
-                    this.body[k] = Some(body);
-                    this.body_dofs[k] = coordinates.bodies[body];
-                    (coordinates.bodies[body], 3)
-                }
-                Anchor::Fixed => continue,
-            };
-            this.moves[k] = true;
-            this.slots[k] = this.slot_of(first, size);
+            this.add_node(coordinates, k, node);
+            if twist && coordinates.dimensions == 3 && k + 1 < nodes.len() {
+                this.add_spin(coordinates, k, node);
+            }
         }
         this
     }
 
-    /// The stencil of a magnet itself.
-    pub fn of_body(coordinates: &Coordinates, body: usize) -> Self {
-        let mut this = Self::new(coordinates, &[]);
-        this.slot_of(coordinates.bodies[body], 3);
-        this
+    fn add_node(&mut self, coordinates: &Coordinates, k: usize, node: usize) {
+        self.nodes[k] = node;
+        let (first, size) = match coordinates.anchors[node] {
+            Anchor::Free { dof } => (dof, coordinates.dimensions),
+            Anchor::Rigid { body, .. } => {
+                self.body[k] = Some(body);
+                self.body_dofs[k] = coordinates.bodies[body];
+                (coordinates.bodies[body], coordinates.body_size())
+            }
+            Anchor::Fixed => return,
+        };
+        self.moves[k] = true;
+        self.slots[k] = self.slot_of(first, size);
+    }
+
+    /// Twist of the element that starts at `node`.
+    fn add_spin(&mut self, coordinates: &Coordinates, k: usize, node: usize) {
+        self.spins[k] = match coordinates.twists[node] {
+            Some(dof) => Spin::Free(self.slot_of(dof, 1)),
+            None => match coordinates.rigid[node] {
+                Some(body) => {
+                    let first = coordinates.bodies[body];
+                    Spin::Rigid(self.slot_of(first, coordinates.body_size()) + 3)
+                }
+                None => Spin::Fixed,
+            },
+        };
     }
 
     /// Looks the places of its entries up, once the shape of the matrix is known.

@@ -1,6 +1,6 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
-use super::{Model, PairModel};
+use super::{Model, PairModel, UniformTorque};
 use crate::scene::{Curvature, Integrator};
 use std::fmt::Write;
 
@@ -24,7 +24,11 @@ impl Model {
             Curvature::Angle => "κ = φ",
             Curvature::Tangent => "κ = 2 tan(φ/2)",
         };
-        line("bending", format!("{} nodes, {curvature}", self.bend.len()));
+        let ways = match self.dimensions() {
+            2 => "in the plane",
+            _ => "about two axes and twisting",
+        };
+        line("bending", format!("{} nodes {ways}, {curvature}", self.bend.len()));
         line("gravity", self.explain_gravity());
         line("ground", self.explain_ground());
         line("drive", self.explain_drive());
@@ -34,7 +38,7 @@ impl Model {
 
     fn explain_gravity(&self) -> String {
         match self.program.gravity_m_s2 {
-            Some([x, y]) => format!("({x:.4}, {y:.4}) m/s²"),
+            Some([x, y, _]) => format!("({x:.4}, {y:.4}) m/s²"),
             None => "left out: gravity_m_s2 is 0".to_string(),
         }
     }
@@ -59,10 +63,10 @@ impl Model {
             return "wrench left out: the body has no magnets".to_string();
         };
         let pair = match &magnetics.pair {
-            PairModel::Cuboid(_) => {
+            PairModel::Cuboid(_) | PairModel::SpatialCuboid(_) => {
                 format!("cuboids, quadrature order {}", self.scene.solver.quadrature_order)
             }
-            PairModel::Dipole(_) => "dipoles".to_string(),
+            PairModel::Dipole(_) | PairModel::SpatialDipole(_) => "dipoles".to_string(),
         };
         let pairs = drive.layout.offset_m.len() * self.magnets();
         format!("{pairs} wrenches a step, {pair}")
@@ -70,7 +74,10 @@ impl Model {
 
     fn explain_field(&self) -> String {
         match (&self.program.uniform_field, &self.scene.field) {
-            (Some(field), _) => format!("({}, {}) T", field.field_t[0], field.field_t[1]),
+            (Some(field), _) if self.dimensions() == 2 => {
+                format!("({}, {}) T", field.field_t[0], field.field_t[1])
+            }
+            (Some(UniformTorque { field_t: [x, y, z], .. }), _) => format!("({x}, {y}, {z}) T"),
             (None, Some(_)) => "left out: the body has no magnets".to_string(),
             (None, None) => "left out: the scene has no [field]".to_string(),
         }

@@ -1,7 +1,8 @@
 //! Masses: rubber lumped on the nodes, magnets as rigid bodies.
 //!
 //! Half of a soft element's rubber goes to each of its nodes. The rubber around a magnet goes ⅙, ⅔, ⅙
-//! to its head end, centre and tail end (Simpson), which keeps mass and moment of inertia m l²/12.
+//! to its head end, centre and tail end (Simpson), which keeps mass and moment of inertia m l²/12. In space a
+//! magnet has a moment of inertia about its tangent, up and side, and a soft element about its tangent.
 
 use super::coordinates::{Anchor, Coordinates};
 use super::mesh::Mesh;
@@ -24,17 +25,7 @@ pub struct MassPart {
 
 /// Contributions to the mass of every unknown that has one.
 pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<MassPart> {
-    let mut rubber = vec![0.0; coordinates.count];
-    let mut point =
-        |node: usize, mass_kg: f64| add_point(&mut rubber, coordinates, scene, node, mass_kg);
-    let density = scene.material.density_kg_m3;
-    for (e, element) in mesh.elements.iter().enumerate() {
-        let volume_m3 = mesh.element_length_m(e) * element.thickness_m * mesh.width_m;
-        let share = if element.magnet.is_some() { 1.0 / 6.0 } else { 0.5 };
-        let solid_m3 = volume_m3 - element.magnet.map_or(0.0, |_| magnet_volume_m3(scene));
-        point(e, share * density * solid_m3);
-        point(e + 1, share * density * solid_m3);
-    }
+    let rubber = rubber(scene, mesh, coordinates);
     let mut parts: Vec<MassPart> = rubber
         .iter()
         .enumerate()
@@ -44,19 +35,29 @@ pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<
     if let Some(magnet) = &scene.magnet {
         for (body, placed) in mesh.magnets.iter().enumerate() {
             let thickness_m = mesh.elements[placed.element].thickness_m;
-            let box_m3 = magnet.length_m * thickness_m * mesh.width_m;
-            let around_kg = density * (box_m3 - magnet_volume_m3(scene));
-            parts.extend(body_parts(
-                coordinates.bodies[body],
-                body,
-                magnet,
-                density,
-                around_kg,
-                thickness_m,
-            ));
+            let section_m = [thickness_m, mesh.width_m];
+            parts.extend(body_parts(scene, coordinates, body, magnet, section_m));
         }
     }
     parts
+}
+
+/// Rubber on nodes and of elements that twist, for each unknown.
+fn rubber(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<f64> {
+    let mut rubber = vec![0.0; coordinates.count];
+    let density = scene.material.density_kg_m3;
+    for (e, element) in mesh.elements.iter().enumerate() {
+        let volume_m3 = mesh.element_length_m(e) * element.thickness_m * mesh.width_m;
+        let share = if element.magnet.is_some() { 1.0 / 6.0 } else { 0.5 };
+        let solid_m3 = volume_m3 - element.magnet.map_or(0.0, |_| magnet_volume_m3(scene));
+        add_point(&mut rubber, coordinates, scene, e, share * density * solid_m3);
+        add_point(&mut rubber, coordinates, scene, e + 1, share * density * solid_m3);
+        if let Some(dof) = coordinates.twists[e] {
+            let gyration_m2 = (element.thickness_m.powi(2) + mesh.width_m.powi(2)) / 12.0;
+            rubber[dof] += density * volume_m3 * gyration_m2;
+        }
+    }
+    rubber
 }
 
 fn add_point(
@@ -66,17 +67,18 @@ fn add_point(
     node: usize,
     mass_kg: f64,
 ) {
+    let dimensions = coordinates.dimensions;
     match coordinates.anchors[node] {
         Anchor::Free { dof } => {
-            rubber[dof] += mass_kg;
-            rubber[dof + 1] += mass_kg;
+            rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg)
         }
         Anchor::Rigid { body, .. } => {
             let arm_m = scene.magnet.as_ref().map_or(0.0, |m| 0.5 * m.length_m);
             let dof = coordinates.bodies[body];
-            rubber[dof] += mass_kg;
-            rubber[dof + 1] += mass_kg;
-            rubber[dof + 2] += mass_kg * arm_m * arm_m;
+            rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg);
+            // About all axes but the tangent, on which it lies; in the plane there is one.
+            let rotations = if dimensions == 2 { dof + 2..dof + 3 } else { dof + 4..dof + 6 };
+            rubber[rotations].iter_mut().for_each(|m| *m += mass_kg * arm_m * arm_m);
         }
         Anchor::Fixed => {}
     }
@@ -84,32 +86,42 @@ fn add_point(
 
 /// The magnet, and the part of the rubber around it that sits at its centre.
 fn body_parts(
-    dof: usize,
+    scene: &Scene,
+    coordinates: &Coordinates,
     body: usize,
     magnet: &Magnet,
-    density: f64,
-    around_kg: f64,
-    thickness_m: f64,
-) -> [MassPart; 3] {
-    let volume_m3 = magnet.length_m * magnet.width_m * magnet.height_m;
-    let magnet_kg = magnet.density_kg_m3 * volume_m3;
-    let fill_kg = density * volume_m3;
-    let gyration_m2 = (magnet.length_m.powi(2) + magnet.height_m.powi(2)) / 12.0;
-    let centre_kg = around_kg * 2.0 / 3.0;
-    let body = Some(body);
-    let translation =
-        |dof| MassPart { dof, rubber: centre_kg, body, magnet: magnet_kg, fill: fill_kg };
-    [
-        translation(dof),
-        translation(dof + 1),
-        MassPart {
-            dof: dof + 2,
-            rubber: around_kg * thickness_m.powi(2) / 12.0,
-            body,
-            magnet: magnet_kg * gyration_m2,
-            fill: fill_kg * gyration_m2,
-        },
-    ]
+    [thickness_m, width_m]: [f64; 2],
+) -> Vec<MassPart> {
+    let (dof, density) = (coordinates.bodies[body], scene.material.density_kg_m3);
+    let volume_m3 = magnet_volume_m3(scene);
+    let around_kg = density * (magnet.length_m * thickness_m * width_m - volume_m3);
+    let (magnet_kg, fill_kg) = (magnet.density_kg_m3 * volume_m3, density * volume_m3);
+    let part = |dof, rubber, gyration_m2| MassPart {
+        dof,
+        rubber,
+        body: Some(body),
+        magnet: magnet_kg * gyration_m2,
+        fill: fill_kg * gyration_m2,
+    };
+    // Squares of the radii of gyration about an axis: the rubber's length is in its points.
+    let squares = |a: f64, b: f64| (a.powi(2) + b.powi(2)) / 12.0;
+    let about_side = (squares(thickness_m, 0.0), squares(magnet.length_m, magnet.height_m));
+    let rotations = if coordinates.dimensions == 2 {
+        vec![about_side]
+    } else {
+        vec![
+            (squares(thickness_m, width_m), squares(magnet.height_m, magnet.width_m)),
+            (squares(width_m, 0.0), squares(magnet.length_m, magnet.width_m)),
+            about_side,
+        ]
+    };
+    let first = dof + coordinates.dimensions;
+    let translations = (dof..first).map(|dof| part(dof, around_kg * 2.0 / 3.0, 1.0));
+    let rotations = rotations
+        .into_iter()
+        .enumerate()
+        .map(|(k, (rubber, magnet))| part(first + k, around_kg * rubber, magnet));
+    translations.chain(rotations).collect()
 }
 
 fn magnet_volume_m3(scene: &Scene) -> f64 {

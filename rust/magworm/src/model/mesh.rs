@@ -54,6 +54,8 @@ pub enum Sole {
         along_m: f64,
         /// Distance below its centre [m].
         depth_m: f64,
+        /// Distance to the side of its centre [m]; 0 in the plane.
+        across_m: f64,
     },
     /// Straight below a node of a rod; thin rods, so that the turn of the section does not matter.
     Node {
@@ -77,7 +79,7 @@ impl Mesh {
     pub fn new(scene: &Scene) -> Self {
         let magnet_length_m = scene.magnet.as_ref().map_or(0.0, |m| m.length_m);
         match &scene.body {
-            Body::Worm(worm) => Self::worm(worm, magnet_length_m),
+            Body::Worm(worm) => Self::worm(worm, magnet_length_m, scene.dimensions),
             Body::Rod(rod) => Self::rod(rod, magnet_length_m, scene.ground.is_some()),
         }
     }
@@ -92,7 +94,7 @@ impl Mesh {
         self.arc_m[element + 1] - self.arc_m[element]
     }
 
-    fn worm(worm: &Worm, magnet_length_m: f64) -> Self {
+    fn worm(worm: &Worm, magnet_length_m: f64, dimensions: usize) -> Self {
         let foot_end_m = 0.5 * (worm.foot_length_m - magnet_length_m);
         let foot_end = |_| Segment {
             length_m: foot_end_m,
@@ -104,6 +106,8 @@ impl Mesh {
             },
             magnet: None,
         };
+        // A toe and a heel in the plane, two of each in space.
+        let corners: &[f64] = if dimensions == 2 { &[0.0] } else { &[-0.5, 0.5] };
         let mut segments = Vec::new();
         let mut soles = Vec::new();
         for foot in 0..worm.magnets {
@@ -117,7 +121,10 @@ impl Mesh {
             segments.push(foot_end(()));
             let depth_m = 0.5 * worm.foot_thickness_m;
             for along_m in [-0.5 * worm.foot_length_m, 0.5 * worm.foot_length_m] {
-                soles.push(Sole::Foot { body: foot, along_m, depth_m });
+                soles.extend(corners.iter().map(|corner| {
+                    let across_m = corner * worm.width_m;
+                    Sole::Foot { body: foot, along_m, depth_m, across_m }
+                }));
             }
             if foot + 1 < worm.magnets {
                 segments.push(Segment {

@@ -6,7 +6,7 @@ mod inertia;
 mod magnetics;
 mod mesh;
 
-pub use coordinates::{Anchor, Coordinates, Stencil, Tie, Unknowns};
+pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
 pub use inertia::MassPart;
 pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
@@ -30,11 +30,11 @@ pub struct Model {
     pub band: Band,
     /// Axial springs.
     pub stretch: Vec<Stretch>,
-    /// Bending springs.
+    /// Bending springs; in space they twist as well.
     pub bend: Vec<Bend>,
     /// Contributions to the mass of each unknown.
     pub inertia: Vec<MassPart>,
-    /// Unknowns that are translations, with their axis (0 for x, 1 for y).
+    /// Unknowns that are translations, with their axis (0 for x, 1 for y, 2 for z).
     pub translations: Vec<(usize, usize)>,
     /// Half length of the body magnets [m].
     pub half_magnet_m: f64,
@@ -55,8 +55,8 @@ pub struct Model {
 /// Optional terms of the equations of motion.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// Gravity along x and y of the ground's frame [m/s²].
-    pub gravity_m_s2: Option<[f64; 2]>,
+    /// Gravity along x, y and z of the ground's frame [m/s²].
+    pub gravity_m_s2: Option<[f64; 3]>,
     /// Wrench of the drive magnets on the body magnets.
     pub magnetics: Option<Magnetics>,
     /// Torque of a uniform field on the body magnets.
@@ -70,8 +70,8 @@ pub struct Program {
 /// Torque of a uniform field on a body magnet.
 #[derive(Clone, Copy, Debug)]
 pub struct UniformTorque {
-    /// Flux density along x and y [T].
-    pub field_t: [f64; 2],
+    /// Flux density along x, y and z [T].
+    pub field_t: [f64; 3],
     /// A body magnet in it.
     pub magnet: UniformField,
 }
@@ -106,13 +106,18 @@ pub struct Stretch {
     pub stencil: Stencil,
 }
 
-/// Bending spring at a node: E = ½ B κ², see [`crate::scene::Curvature`].
+/// Bending spring at a node: E = ½ B κ², see [`crate::scene::Curvature`]; in space a spring for each axis and
+/// one for twist.
 #[derive(Clone, Copy, Debug)]
 pub struct Bend {
     /// The node; its elements are the one before and this.
     pub node: usize,
-    /// B = 1/(l⁻/2EI⁻ + l⁺/2EI⁺) [N·m]: two halves in series; EI/l̄ where they are alike.
+    /// B = 1/(l⁻/2EI⁻ + l⁺/2EI⁺) [N·m], I = w h³/12: two halves in series; EI/l̄ where they are alike.
     pub stiffness_n_m: f64,
+    /// The same for bending to the side, I = h w³/12 [N·m].
+    pub across_n_m: f64,
+    /// The same for twisting, with GJ in place of EI, see [`torsion_constant_m4`] [N·m].
+    pub twist_n_m: f64,
     /// The unknowns it acts on.
     pub stencil: Stencil,
 }
@@ -138,7 +143,7 @@ impl Model {
             Integrator::Implicit => Unknowns::Reduced,
             Integrator::Explicit => Unknowns::Multipliers,
         };
-        let coordinates = Coordinates::new(&mesh, unknowns);
+        let coordinates = Coordinates::new(&mesh, unknowns, scene.dimensions);
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
         let mut contacts = match scene.ground {
@@ -182,6 +187,11 @@ impl Model {
         self.mesh.arc_m.len()
     }
 
+    /// 2 in the plane, 3 in space.
+    pub fn dimensions(&self) -> usize {
+        self.coordinates.dimensions
+    }
+
     /// The parameters that each environment may have for its own.
     pub const PARAMETERS: [Parameter; 7] = [
         Parameter::Stiffness,
@@ -205,7 +215,7 @@ impl Program {
                 .map(|(magnet, drive)| Magnetics::new(scene, magnet, drive)),
             uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| {
                 UniformTorque {
-                    field_t: [field.x_t, field.y_t],
+                    field_t: [field.x_t, field.y_t, field.z_t],
                     magnet: UniformField::new(magnetics::cuboid(magnet)),
                 }
             }),
@@ -213,7 +223,8 @@ impl Program {
                 static_friction: g.static_friction,
                 dynamic_friction: g.dynamic_friction,
                 transition_speed_m_s: g.transition_speed_m_s,
-                adhesion_n: g.adhesion_n,
+                // A foot has a toe and a heel in the plane, two of each in space.
+                adhesion_n: g.adhesion_n * if scene.dimensions == 3 { 0.5 } else { 1.0 },
                 node_mass_kg: typical_node_mass_kg(scene, mesh),
                 weight_kg: penalty_weight_kg(scene, mesh),
             }),
@@ -222,10 +233,10 @@ impl Program {
     }
 }
 
-fn gravity(scene: &Scene) -> [f64; 2] {
+fn gravity(scene: &Scene) -> [f64; 3] {
     let incline = scene.ground.as_ref().map_or(0.0, |g| g.incline_deg.to_radians());
     let (sin, cos) = sin_cos(incline);
-    [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos]
+    [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos, 0.0]
 }
 
 /// Weight of the penalty that holds a contact.
@@ -264,22 +275,38 @@ fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
 }
 
 fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Bend> {
-    // Half an element's bending compliance [1/(N·m)]; a rigid element has none.
-    let compliance = |element: usize| {
-        let Element { thickness_m, magnet } = mesh.elements[element];
-        let second_moment_m4 = mesh.width_m * thickness_m.powi(3) / 12.0;
-        if magnet.is_some() {
-            return 0.0;
-        }
-        0.5 * mesh.element_length_m(element) / (scene.material.youngs_modulus_pa * second_moment_m4)
+    let width_m = mesh.width_m;
+    let modulus_pa = scene.material.youngs_modulus_pa;
+    let shear_modulus_pa = modulus_pa / (2.0 * (1.0 + scene.material.poisson_ratio));
+    // Two halves of elements in series; a rigid element does not yield.
+    let in_series = |node: usize, rigidity_n_m2: &dyn Fn(f64) -> f64| {
+        let compliance = |element: usize| {
+            let Element { thickness_m, magnet } = mesh.elements[element];
+            let half_m = 0.5 * mesh.element_length_m(element);
+            if magnet.is_some() { 0.0 } else { half_m / rigidity_n_m2(thickness_m) }
+        };
+        1.0 / (compliance(node - 1) + compliance(node))
     };
+    let up = |h: f64| modulus_pa * (width_m * h.powi(3) / 12.0);
+    let across = |h: f64| modulus_pa * (h * width_m.powi(3) / 12.0);
+    let twist = |h: f64| shear_modulus_pa * torsion_constant_m4(width_m, h);
     (1..mesh.elements.len())
         .map(|node| Bend {
             node,
-            stiffness_n_m: 1.0 / (compliance(node - 1) + compliance(node)),
-            stencil: Stencil::new(coordinates, &[node - 1, node, node + 1]),
+            stiffness_n_m: in_series(node, &up),
+            across_n_m: in_series(node, &across),
+            twist_n_m: in_series(node, &twist),
+            stencil: Stencil::with_twist(coordinates, &[node - 1, node, node + 1]),
         })
         .collect()
+}
+
+/// Torsion constant J of a rectangle [m⁴]: b h³ (1/3 − 0.21 (h/b) (1 − h⁴/12b⁴)) with h ≤ b, within 0.5 % of
+/// Saint-Venant's series (Roark's formulas for stress and strain, table of torsion, case 4).
+pub fn torsion_constant_m4(width_m: f64, thickness_m: f64) -> f64 {
+    let (b, h) = (width_m.max(thickness_m), width_m.min(thickness_m));
+    let slender = h / b;
+    b * h.powi(3) * (1.0 / 3.0 - 0.21 * slender * (1.0 - slender.powi(4) / 12.0))
 }
 
 fn contact_points(mesh: &Mesh, coordinates: &Coordinates) -> Vec<Contact> {
@@ -306,7 +333,8 @@ fn band(
     for tie in &coordinates.ties {
         let Anchor::Free { dof } = coordinates.anchors[tie.node] else { continue };
         let body = coordinates.bodies[tie.body];
-        band.couple(&[tie.dof, tie.dof + 1, dof, dof + 1, body, body + 1, body + 2]);
+        let (axis, rotation) = (coordinates.dimensions - 1, coordinates.body_size() - 1);
+        band.couple(&[tie.dof, tie.dof + axis, dof, dof + axis, body, body + rotation]);
     }
     // Explicit schemes have no stiffness in their matrix.
     if coordinates.ties.is_empty() {
@@ -314,6 +342,9 @@ fn band(
         bend.iter().for_each(|b| band.couple(&b.stencil.dofs[..b.stencil.count]));
     }
     contacts.iter().for_each(|c| band.couple(&c.stencil.dofs[..c.stencil.count]));
+    if coordinates.dimensions == 3 {
+        coordinates.bodies.iter().for_each(|&body| band.couple(&[body + 3, body + 5]));
+    }
     band
 }
 
@@ -323,6 +354,6 @@ fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {
         _ => None,
     });
     free.chain(coordinates.bodies.iter().copied())
-        .flat_map(|dof| [(dof, 0), (dof + 1, 1)])
+        .flat_map(|dof| (0..coordinates.dimensions).map(move |axis| (dof + axis, axis)))
         .collect()
 }

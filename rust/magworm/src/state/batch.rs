@@ -3,6 +3,7 @@
 use super::block::{Block, Counters, Status};
 use super::pool::Pool;
 use super::view::View;
+use crate::lanes::math::sin_cos;
 use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
 use crate::model::Model;
 use crate::observe;
@@ -135,7 +136,7 @@ impl Batch {
         });
     }
 
-    /// One control step. `actions` in [−1, 1], shape [environments × 3]; empty where the drive is not
+    /// One control step. `actions` in [−1, 1], shape [environments × action]; empty where the drive is not
     /// controlled. Everything in `actions` must be finite.
     pub fn step(&mut self, actions: &[f64], output: StepOutput<'_>) {
         let model = Arc::clone(&self.model);
@@ -286,6 +287,15 @@ fn control_step<const W: usize>(
     }
 }
 
+/// How far the centre has moved towards where the head was.
+fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
+    if heading == 0.0 {
+        return x - next_x;
+    }
+    let (sin, cos) = sin_cos(heading);
+    (x - next_x) * cos - (z - next_z) * sin
+}
+
 struct BlockOutput<'a> {
     observation: &'a mut [f32],
     progress_m: &'a mut [f64],
@@ -311,18 +321,19 @@ fn control_block<const W: usize>(
 {
     let count = rows.status.len();
     if let Some(drive) = model.program.drive.as_ref().filter(|d| d.is_controlled()) {
+        let size = observe::action_size(model);
         for lane in 0..count {
             if block.status[lane] == Status::Running {
-                let action = std::array::from_fn(|k| actions[3 * (first + lane) + k]);
+                let action = &actions[size * (first + lane)..][..size];
                 command(model, drive, block, lane, action);
             }
         }
     }
-    let before: [f64; W] = std::array::from_fn(|lane| block.centre_x(model, lane));
+    let before: [[f64; 3]; W] = std::array::from_fn(|lane| block.robot_pose(model, lane));
     block.run(model, model.steps_per_control);
     let width = observe::size(model);
     for lane in 0..count {
-        rows.progress_m[lane] = before[lane] - block.centre_x(model, lane);
+        rows.progress_m[lane] = progress_m(before[lane], block.robot_pose(model, lane));
         rows.status[lane] = block.status[lane] as u8;
         observe::write(model, block, lane, &mut rows.observation[lane * width..][..width]);
     }

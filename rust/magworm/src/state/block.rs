@@ -1,7 +1,7 @@
 //! W environments of one model, one per lane.
 
 use super::rows::Rows;
-use crate::lanes::math::sin_cos;
+use crate::drive::stage_axes;
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -78,15 +78,16 @@ pub struct Block<const W: usize> {
     pub v: Rows<W>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].
     pub normal: Rows<W>,
-    /// Tangential impulse of each contact in the last step [N·s], shape [contacts].
+    /// Tangential impulse of each contact in the last step, along x and in space along z [N·s],
+    /// shape [contacts × (D − 1)].
     pub tangential: Rows<W>,
     /// State of each contact, see [`crate::contact::Mode`], shape [contacts].
     pub mode: Rows<W>,
-    /// Stage x, y [m] and their velocities [m/s], shape [4].
+    /// Stage x, y, in space also z [m] and yaw [rad], then their velocities, shape [2 × axes].
     pub stage: Rows<W>,
-    /// Stage target x, y [m] and speed limit [m/s], shape [3].
+    /// Targets of these axes, then the speed limit [m/s], shape [axes + 1].
     pub target: Rows<W>,
-    /// Last action, shape [3].
+    /// Last action, shape [action].
     pub action: Rows<W>,
     /// Solver steps since the reset, shape [1].
     pub step_count: Rows<W>,
@@ -94,8 +95,12 @@ pub struct Block<const W: usize> {
     pub factors: Rows<W>,
     /// 1 where a magnet is in, 0 where it is out, shape [magnets].
     pub present: Rows<W>,
-    /// Positions of the nodes held in place [m], shape [fixed nodes × 2].
+    /// Positions of the nodes held in place [m], shape [fixed nodes × D].
     pub held: Rows<W>,
+    /// In space up direction and tangent of each element, shape [elements × 6].
+    pub director: Rows<W>,
+    /// In space twist of each bending node [rad], beyond ±π where it has gone there, shape [bending nodes].
+    pub twist: Rows<W>,
     /// Status of each environment.
     pub status: [Status; W],
 
@@ -108,15 +113,18 @@ pub struct Block<const W: usize> {
     // Workspace.
     /// 1 where the lane runs, 0 where it stands still, shape [1].
     pub running: Rows<W>,
-    /// Node positions [m], shape [nodes × 2].
+    /// Node positions [m], shape [nodes × D].
     pub node: Rows<W>,
-    /// Unit tangents, shape [elements × 2].
+    /// Unit tangents, shape [elements × D].
     pub tangent: Rows<W>,
     /// Lengths [m], shape [elements].
     pub length: Rows<W>,
     /// Inverse lengths [1/m], shape [elements].
     pub inverse_length: Rows<W>,
-    /// Cosine and sine of each magnet's angle, shape [magnets × 2].
+    /// In space side direction of each element, shape [elements × 3].
+    pub side: Rows<W>,
+    /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
+    /// shape [magnets × 9].
     pub frame: Rows<W>,
     /// Matrix without contacts, banded.
     pub matrix: Rows<W>,
@@ -128,7 +136,8 @@ pub struct Block<const W: usize> {
     pub solution: Rows<W>,
     /// Accepted velocities of this step, shape [unknowns].
     pub next: Rows<W>,
-    /// Jacobians of the contacts, normal then tangential, shape [contacts × 2 × 3].
+    /// Jacobians of the contacts, normal then tangential, over the unknowns of a magnet, shape
+    /// [contacts × 2 × 3], in space [contacts × 3 × 6].
     pub jacobian: Rows<W>,
     /// Normal velocity that a contact must reach at least [m/s], shape [contacts].
     pub approach: Rows<W>,
@@ -138,8 +147,15 @@ pub struct Block<const W: usize> {
     pub reckoned: Rows<W>,
     /// Normal impulse reckoned with, and found, in the pass before [N·s], shape [contacts × 2].
     pub earlier: Rows<W>,
-    /// Impulses of the last step, where the penalties start from [N·s], shape [contacts × 2].
+    /// Impulses of the last step, where the penalties start from [N·s], shape [contacts × D].
     pub warm: Rows<W>,
+    /// Direction in which each contact slides, shape [contacts × (D − 1)].
+    pub slip: Rows<W>,
+    /// In space its speed in the pass before [m/s], shape [contacts].
+    pub speed: Rows<W>,
+    /// In space the direction across it that friction is linearised along, its viscosity [kg] and the velocity
+    /// that it is linearised about [m/s], shape [contacts × 4].
+    pub across: Rows<W>,
     /// Work done.
     pub counters: Counters,
 }
@@ -149,40 +165,49 @@ impl<const W: usize> Block<W> {
     pub fn new(model: &Model) -> Self {
         let unknowns = model.coordinates.count;
         let (magnets, nodes, contacts) = (model.magnets(), model.nodes(), model.contacts.len());
-        let zeros = Rows::zeros;
+        let (dimensions, zeros) = (model.dimensions(), Rows::zeros);
+        // Rows that only a robot in space has.
+        let in_space = |rows| zeros(if dimensions == 3 { rows } else { 0 });
+        let (elements, axes) = (nodes - 1, stage_axes(dimensions));
         let mut this = Self {
             q: zeros(unknowns),
             v: zeros(unknowns),
             normal: zeros(contacts),
-            tangential: zeros(contacts),
+            tangential: zeros((dimensions - 1) * contacts),
             mode: zeros(contacts),
-            stage: zeros(4),
-            target: zeros(3),
-            action: zeros(3),
+            stage: zeros(2 * axes),
+            target: zeros(axes + 1),
+            action: zeros(crate::observe::action_size(model)),
             step_count: zeros(1),
             factors: zeros(Model::PARAMETERS.len()),
             present: zeros(magnets),
-            held: zeros(2 * model.mesh.fixed_nodes),
+            held: zeros(dimensions * model.mesh.fixed_nodes),
+            director: in_space(6 * elements),
+            twist: in_space(model.bend.len()),
             status: [Status::Unused; W],
             mass: zeros(unknowns),
             remanence: zeros(magnets),
             running: zeros(1),
-            node: zeros(2 * nodes),
-            tangent: zeros(2 * (nodes - 1)),
-            length: zeros(nodes - 1),
-            inverse_length: zeros(nodes - 1),
-            frame: zeros(2 * magnets),
+            node: zeros(dimensions * nodes),
+            tangent: zeros(dimensions * elements),
+            length: zeros(elements),
+            inverse_length: zeros(elements),
+            side: in_space(3 * elements),
+            frame: zeros(if dimensions == 2 { 2 } else { 9 } * magnets),
             matrix: zeros(model.band.entries()),
             factor: zeros(model.band.entries()),
             right: zeros(unknowns),
             solution: zeros(unknowns),
             next: zeros(unknowns),
-            jacobian: zeros(contacts * 2 * crate::contact::SLOTS),
+            jacobian: zeros(contacts * crate::contact::jacobian_rows(dimensions)),
             approach: zeros(contacts),
             coefficient: zeros(contacts),
             reckoned: zeros(contacts),
             earlier: zeros(2 * contacts),
-            warm: zeros(2 * contacts),
+            warm: zeros(dimensions * contacts),
+            slip: zeros((dimensions - 1) * contacts),
+            speed: in_space(contacts),
+            across: in_space(4 * contacts),
             counters: Counters::default(),
         };
         (0..W).for_each(|lane| crate::reset::rest(model, &mut this, lane));
@@ -190,7 +215,7 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows that change in time, in the order of a snapshot.
-    pub fn state_rows(&self) -> [&Rows<W>; 12] {
+    pub fn state_rows(&self) -> [&Rows<W>; 14] {
         [
             &self.q,
             &self.v,
@@ -204,11 +229,13 @@ impl<const W: usize> Block<W> {
             &self.factors,
             &self.present,
             &self.held,
+            &self.director,
+            &self.twist,
         ]
     }
 
     /// The rows of [`Self::state_rows`], to be written.
-    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 12] {
+    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 14] {
         [
             &mut self.q,
             &mut self.v,
@@ -222,44 +249,8 @@ impl<const W: usize> Block<W> {
             &mut self.factors,
             &mut self.present,
             &mut self.held,
+            &mut self.director,
+            &mut self.twist,
         ]
-    }
-
-    /// Position [m] of a node in one lane.
-    pub fn node_position(&self, model: &Model, node: usize, lane: usize) -> [f64; 2] {
-        use crate::model::Anchor;
-        match model.coordinates.anchors[node] {
-            Anchor::Free { dof } => [self.q[dof][lane], self.q[dof + 1][lane]],
-            Anchor::Rigid { body, side } => {
-                let dof = model.coordinates.bodies[body];
-                let arm = f64::from(side) * model.half_magnet_m;
-                let (sin, cos) = sin_cos(self.q[dof + 2][lane]);
-                [self.q[dof][lane] + arm * cos, self.q[dof + 1][lane] + arm * sin]
-            }
-            Anchor::Fixed => [self.held[2 * node][lane], self.held[2 * node + 1][lane]],
-        }
-    }
-
-    /// Position x, y [m] and angle [rad] of a body magnet in one lane.
-    pub fn magnet_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
-        let dof = model.coordinates.bodies[magnet];
-        [0, 1, 2].map(|k| self.q[dof + k][lane])
-    }
-
-    /// Velocity of a body magnet in one lane [m/s, m/s, rad/s].
-    pub fn magnet_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
-        let dof = model.coordinates.bodies[magnet];
-        [0, 1, 2].map(|k| self.v[dof + k][lane])
-    }
-
-    /// x of the robot's centre in one lane [m]: mean of its magnets, or of its nodes where it has none.
-    pub fn centre_x(&self, model: &Model, lane: usize) -> f64 {
-        let magnets = model.magnets();
-        if magnets == 0 {
-            let nodes = model.nodes();
-            return (0..nodes).map(|n| self.node_position(model, n, lane)[0]).sum::<f64>()
-                / nodes as f64;
-        }
-        model.coordinates.bodies.iter().map(|&dof| self.q[dof][lane]).sum::<f64>() / magnets as f64
     }
 }

@@ -3,6 +3,7 @@
 mod batch;
 mod block;
 mod pool;
+mod pose;
 mod rows;
 mod snapshot;
 mod view;
@@ -10,6 +11,7 @@ mod view;
 pub use batch::{Batch, LaneChoice, StepOutput};
 pub use block::{Block, Counters, Status};
 pub(crate) use pool::Pool;
+pub use pose::{Pose, Twist};
 pub use rows::Rows;
 pub use snapshot::SnapshotError;
 pub use view::View;

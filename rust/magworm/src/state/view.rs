@@ -1,8 +1,11 @@
 //! Looking at one environment of a batch, whatever the width of its block.
 
 use super::block::{Block, Status};
+use super::pose::{Pose, Twist};
+use crate::drive::stage_axes;
 use crate::model::Model;
 use crate::observe;
+use nalgebra::Vector3;
 
 /// One environment, to be looked at.
 pub struct View<'a> {
@@ -20,28 +23,40 @@ impl<'a> View<'a> {
 
 /// What can be asked of a block of any width.
 trait LaneView {
-    fn node(&self, model: &Model, node: usize, lane: usize) -> [f64; 2];
-    fn magnet(&self, model: &Model, magnet: usize, lane: usize) -> ([f64; 3], [f64; 3]);
-    fn stage(&self, lane: usize) -> [f64; 4];
-    fn centre_x(&self, model: &Model, lane: usize) -> f64;
+    fn node(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64>;
+    fn pose(&self, model: &Model, magnet: usize, lane: usize) -> Pose;
+    fn velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist;
+    fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
+    fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
+    fn stage(&self, row: usize, lane: usize) -> f64;
+    fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3];
     fn steps(&self, lane: usize) -> f64;
     fn status(&self, lane: usize) -> Status;
     fn observe(&self, model: &Model, lane: usize, row: &mut [f32]);
-    fn contact(&self, contact: usize, lane: usize) -> [f64; 3];
+    fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64>;
 }
 
 impl<const W: usize> LaneView for Block<W> {
-    fn node(&self, model: &Model, node: usize, lane: usize) -> [f64; 2] {
+    fn node(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
         self.node_position(model, node, lane)
     }
-    fn magnet(&self, model: &Model, magnet: usize, lane: usize) -> ([f64; 3], [f64; 3]) {
-        (self.magnet_pose(model, magnet, lane), self.magnet_velocity(model, magnet, lane))
+    fn pose(&self, model: &Model, magnet: usize, lane: usize) -> Pose {
+        self.magnet_pose(model, magnet, lane)
     }
-    fn stage(&self, lane: usize) -> [f64; 4] {
-        [0, 1, 2, 3].map(|k| self.stage[k][lane])
+    fn velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist {
+        self.magnet_velocity(model, magnet, lane)
     }
-    fn centre_x(&self, model: &Model, lane: usize) -> f64 {
-        Block::centre_x(self, model, lane)
+    fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
+        Block::planar_pose(self, model, magnet, lane)
+    }
+    fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
+        Block::planar_velocity(self, model, magnet, lane)
+    }
+    fn stage(&self, row: usize, lane: usize) -> f64 {
+        self.stage[row][lane]
+    }
+    fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
+        Block::robot_pose(self, model, lane)
     }
     fn steps(&self, lane: usize) -> f64 {
         self.step_count[0][lane]
@@ -52,38 +67,76 @@ impl<const W: usize> LaneView for Block<W> {
     fn observe(&self, model: &Model, lane: usize, row: &mut [f32]) {
         observe::write(model, self, lane, row);
     }
-    fn contact(&self, contact: usize, lane: usize) -> [f64; 3] {
-        [self.mode[contact][lane], self.normal[contact][lane], self.tangential[contact][lane]]
+    fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64> {
+        let along = model.dimensions() - 1;
+        let tangential = (0..along).map(|t| self.tangential[along * contact + t][lane]);
+        [self.mode[contact][lane], self.normal[contact][lane]]
+            .into_iter()
+            .chain(tangential)
+            .collect()
+    }
+}
+
+/// Rows of numbers as arrays hold them; their length is that of the scene's dimensions.
+impl View<'_> {
+    /// Position of a node: x, y, in space also z [m].
+    pub fn node_m(&self, node: usize) -> Vec<f64> {
+        let place = self.block.node(self.model, node, self.lane);
+        place.iter().take(self.model.dimensions()).copied().collect()
+    }
+    /// Pose of a body magnet: in the plane x, y [m] and angle [rad], in space x, y, z [m] and the quaternion
+    /// w, x, y, z of its orientation, w ≥ 0.
+    pub fn magnet_pose(&self, magnet: usize) -> Vec<f64> {
+        if self.model.dimensions() == 2 {
+            return self.block.planar_pose(self.model, magnet, self.lane).to_vec();
+        }
+        let Pose { position_m, orientation } = self.pose(magnet);
+        let [x, y, z, w] = orientation.coords.into();
+        let sign = if w < 0.0 { -1.0 } else { 1.0 };
+        position_m.iter().copied().chain([w, x, y, z].map(|q| sign * q)).collect()
+    }
+    /// Velocity of a body magnet: in the plane vx, vy [m/s] and rate [rad/s], in space vx, vy, vz [m/s] and the
+    /// angular velocity about x, y, z [rad/s].
+    pub fn magnet_velocity(&self, magnet: usize) -> Vec<f64> {
+        if self.model.dimensions() == 2 {
+            return self.block.planar_velocity(self.model, magnet, self.lane).to_vec();
+        }
+        let Twist { linear_m_s, angular_rad_s } =
+            self.block.velocity(self.model, magnet, self.lane);
+        linear_m_s.iter().chain(angular_rad_s.iter()).copied().collect()
+    }
+    /// Centre of a drive magnet: x, y, in space also z [m] and yaw [rad]; none where the scene has no drive.
+    pub fn drive_place(&self, drive_magnet: usize) -> Option<Vec<f64>> {
+        let layout = &self.model.program.drive.as_ref()?.layout;
+        let (x, y) = (self.stage(0), self.stage(1));
+        let robot = self.robot_pose()[0];
+        if self.model.dimensions() == 2 {
+            return Some(vec![layout.position(drive_magnet, x, robot), y]);
+        }
+        let (z, yaw) = (self.stage(2), self.stage(3));
+        let (sin, cos) = crate::lanes::math::sin_cos(yaw);
+        let [x, z] = layout.place(drive_magnet, x, z, robot, sin, cos);
+        Some(vec![x, y, z, yaw])
+    }
+    /// Velocity of the drive along x and y, in space also along z [m/s] and of its yaw [rad/s].
+    pub fn drive_velocity(&self) -> Vec<f64> {
+        let axes = stage_axes(self.model.dimensions());
+        (axes..2 * axes).map(|row| self.stage(row)).collect()
+    }
+    /// Mode, normal impulse and tangential impulses [N·s] of a contact point in the last step.
+    pub fn contact(&self, contact: usize) -> Vec<f64> {
+        self.block.contact(self.model, contact, self.lane)
     }
 }
 
 impl View<'_> {
-    /// Position of a node [m].
-    pub fn node_m(&self, node: usize) -> [f64; 2] {
-        self.block.node(self.model, node, self.lane)
+    /// Pose of a body magnet.
+    pub fn pose(&self, magnet: usize) -> Pose {
+        self.block.pose(self.model, magnet, self.lane)
     }
-    /// Pose (x, y [m], angle [rad]) of a body magnet.
-    pub fn magnet_pose(&self, magnet: usize) -> [f64; 3] {
-        self.block.magnet(self.model, magnet, self.lane).0
-    }
-    /// Velocity of a body magnet [m/s, m/s, rad/s].
-    pub fn magnet_velocity(&self, magnet: usize) -> [f64; 3] {
-        self.block.magnet(self.model, magnet, self.lane).1
-    }
-    /// x of the robot's centre [m].
-    pub fn centre_x_m(&self) -> f64 {
-        self.block.centre_x(self.model, self.lane)
-    }
-    /// Position [m] of the centre of a drive magnet; none where the scene has no drive.
-    pub fn drive_m(&self, drive_magnet: usize) -> Option<[f64; 2]> {
-        let layout = &self.model.program.drive.as_ref()?.layout;
-        let [x, y, ..] = self.block.stage(self.lane);
-        Some([layout.position(drive_magnet, x, self.centre_x_m()), y])
-    }
-    /// Velocity of the drive along x and y [m/s].
-    pub fn drive_m_s(&self) -> [f64; 2] {
-        let [_, _, vx, vy] = self.block.stage(self.lane);
-        [vx, vy]
+    /// The robot seen from above: x, z of its centre [m], and its heading [rad]; see [`Block::robot_pose`].
+    pub fn robot_pose(&self) -> [f64; 3] {
+        self.block.robot_pose(self.model, self.lane)
     }
     /// Time since the reset [s].
     pub fn time_s(&self) -> f64 {
@@ -93,12 +146,12 @@ impl View<'_> {
     pub fn status(&self) -> Status {
         self.block.status(self.lane)
     }
-    /// Mode, normal and tangential impulse [N·s] of a contact point in the last step.
-    pub fn contact(&self, contact: usize) -> [f64; 3] {
-        self.block.contact(contact, self.lane)
-    }
     /// Writes the observation.
     pub fn observe(&self, row: &mut [f32]) {
         self.block.observe(self.model, self.lane, row);
+    }
+
+    fn stage(&self, row: usize) -> f64 {
+        self.block.stage(row, self.lane)
     }
 }

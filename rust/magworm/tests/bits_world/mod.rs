@@ -99,7 +99,8 @@ impl World {
         for is_in in &mut self.batch.present_mut()[place * magnets..][..magnets] {
             *is_in = draws.uniform(0.0, 1.0) < 0.8 || robot == 0;
         }
-        let tilted = StartPose { x_m: 0.0, height_m: 0.004, angle_rad: draws.uniform(-0.2, 0.2) };
+        let angle_rad = draws.uniform(-0.2, 0.2);
+        let tilted = StartPose { height_m: 0.004, angle_rad, ..StartPose::default() };
         self.batch.reset(place, robot, episode, (robot % 3 == 2).then_some(tilted));
     }
 
@@ -108,13 +109,13 @@ impl World {
         let parameters = Model::PARAMETERS.len();
         let factors = &mut self.batch.factors_mut()[place * parameters..][..parameters];
         factors.copy_from_slice(&[1e-7, 0.0, 1.0, 30.0, 1.0, 1.0, 1.0]);
-        let steep = StartPose { x_m: 0.0, height_m: 0.02, angle_rad: 0.7 };
+        let steep = StartPose { height_m: 0.02, angle_rad: 0.7, ..StartPose::default() };
         self.batch.reset(place, self.robots[place], 2, Some(steep));
     }
 
     /// Starts deep inside the ground.
     fn sink(&mut self, place: usize) {
-        let buried = StartPose { x_m: 0.0, height_m: -1.0, angle_rad: 0.0 };
+        let buried = StartPose { height_m: -1.0, ..StartPose::default() };
         self.batch.reset(place, self.robots[place], 3, Some(buried));
     }
 }

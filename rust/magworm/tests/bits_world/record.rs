@@ -26,9 +26,10 @@ impl Record {
         }
         (0..model.nodes()).for_each(|node| self.add("node", &view.node_m(node)));
         (0..contacts).for_each(|contact| self.add("contact", &view.contact(contact)));
-        self.add("drive", &view.drive_m(0).unwrap_or_default());
-        self.add("drive velocity", &view.drive_m_s());
-        self.add("centre and time", &[view.centre_x_m(), view.time_s()]);
+        self.add("drive", &view.drive_place(0).unwrap_or_default());
+        self.add("drive velocity", &view.drive_velocity());
+        self.add("robot", &view.robot_pose());
+        self.add("time", &[view.time_s()]);
         self.add("status", &[f64::from(view.status() as u8)]);
     }
 

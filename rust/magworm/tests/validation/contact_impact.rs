@@ -116,7 +116,8 @@ fn validates_recovery_from_inside_the_ground() {
         for depth in [1e-4, 1e-3, 3e-3] {
             let mut edits = ON_FLAT.to_vec();
             edits.push(("drive", ""));
-            let start = StartPose { x_m: 0.0, height_m: -depth, angle_rad: 0.0 };
+            let start =
+                StartPose { x_m: 0.0, height_m: -depth, angle_rad: 0.0, ..StartPose::default() };
             let mut world = World::started(base, &edits, start);
             let (mut fastest, mut kinetic) = (0.0f64, 0.0f64);
             for _ in 0..1000 {

@@ -1,7 +1,7 @@
 //! Contact over the whole range of scenes.
 
 use crate::world::{World, number};
-use magworm::contact::SLOTS;
+use magworm::contact::jacobian_rows;
 use magworm::lanes::Scalar;
 use magworm::state::Status;
 use magworm::step::advance;
@@ -37,7 +37,7 @@ fn beyond_coulomb(world: &World) -> bool {
 fn friction_drives(world: &World) -> bool {
     let block = &world.block;
     world.model.contacts.iter().enumerate().any(|(c, contact)| {
-        let row = SLOTS * (2 * c + 1);
+        let row = jacobian_rows(2) * c + 3;
         let speed: f64 = (0..contact.stencil.count)
             .map(|slot| block.jacobian[row + slot][0] * block.v[contact.stencil.dofs[slot]][0])
             .sum();

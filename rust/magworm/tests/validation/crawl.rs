@@ -7,7 +7,7 @@ const LIFT: &str = "{kind='waypoints',time_s=[0.0,0.5],x_m=[0.027,0.027],y_m=[-0
 pub const PASS: &str = "{kind='constant',x_m=-0.05,y_m=-0.022,speed_m_s=0.1}";
 
 fn pose(world: &World, magnet: usize) -> [f64; 3] {
-    world.block.magnet_pose(&world.model, magnet, 0)
+    world.block.planar_pose(&world.model, magnet, 0)
 }
 
 /// Drive lifted −52 → −22 mm in 0.5 s under the middle magnet, held 0.3 s: lift of the middle magnet [m], and the

@@ -149,8 +149,8 @@ fn validates_elastic_forces() {
     for (name, mut world) in bodies() {
         bend(&mut world);
         let q = unknowns(&world);
-        kinematics(Scalar, &world.model, &mut world.block);
-        assemble(Scalar, &world.model, &mut world.block);
+        kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        assemble::<1, 2, _>(Scalar, &world.model, &mut world.block);
         let mut expected = DVector::zeros(q.len());
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             expected -= gradient * (strain.stiffness * strain.value);
@@ -173,8 +173,8 @@ fn validates_implicit_step() {
         bend(&mut world);
         world.model.scene.material.damping_time_s = 3e-3;
         let (q, dt) = (unknowns(&world), world.model.step_s);
-        kinematics(Scalar, &world.model, &mut world.block);
-        assemble(Scalar, &world.model, &mut world.block);
+        kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        assemble::<1, 2, _>(Scalar, &world.model, &mut world.block);
         let matrix = expected_matrix(&world, &q, dt, 3e-3);
         let mut error = 0.0f64;
         let band = &world.model.band;

@@ -15,7 +15,7 @@ fn drift_m(world: &World) -> f64 {
         .ties
         .iter()
         .map(|tie| {
-            let [x, y, theta] = world.block.magnet_pose(model, tie.body, 0);
+            let [x, y, theta] = world.block.planar_pose(model, tie.body, 0);
             let arm = f64::from(tie.side) * model.half_magnet_m;
             let Anchor::Free { dof } = model.coordinates.anchors[tie.node] else {
                 return f64::INFINITY;
@@ -53,7 +53,7 @@ fn validates_constraint_drift() {
     for _ in 0..10_000 {
         world.steps(10);
         worst = worst.max(drift_m(&world));
-        let rate = |body| world.block.magnet_velocity(&world.model, body, 0)[2].abs();
+        let rate = |body| world.block.planar_velocity(&world.model, body, 0)[2].abs();
         fastest = fastest.max(rate(0)).max(rate(1));
     }
     let bound = 0.5 * fastest * fastest * 4e-3 * 5e-6f64.powi(2);

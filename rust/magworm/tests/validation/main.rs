@@ -23,6 +23,7 @@ mod magnet_field;
 mod magnet_symmetry;
 mod magnet_wrench;
 mod odd_bodies;
+mod space_crawl;
 mod statics;
 mod statics_buckling;
 mod statics_magnet;

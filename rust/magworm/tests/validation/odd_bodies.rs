@@ -89,7 +89,7 @@ fn validates_compass_needle() {
     for step in 1.. {
         world.steps(1);
         // The needle's rest is 1 mrad clockwise; it swings from 0 to −2 mrad.
-        let now = world.block.magnet_pose(&world.model, 0, 0)[2] + 1e-3;
+        let now = world.block.planar_pose(&world.model, 0, 0)[2] + 1e-3;
         if before * now < 0.0 {
             crossings.push(1e-4 * (f64::from(step) - now / (now - before)));
         }

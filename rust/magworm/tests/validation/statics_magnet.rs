@@ -34,11 +34,11 @@ fn magnetic(soft_elements: usize, curvature: &str, damping_s: &str) -> (World, f
 /// Turns the field to an angle from the moment's direction at rest, +y.
 fn set_field(world: &mut World, strength_t: f64, angle: f64) {
     let field = world.model.program.uniform_field.as_mut().expect("a field");
-    field.field_t = [-strength_t * angle.sin(), strength_t * angle.cos()];
+    field.field_t = [-strength_t * angle.sin(), strength_t * angle.cos(), 0.0];
 }
 
 fn tip_angle(world: &World) -> f64 {
-    world.block.magnet_pose(&world.model, 0, 0)[2]
+    world.block.planar_pose(&world.model, 0, 0)[2]
 }
 
 /// End of an arc of length 1 that starts along x and turns by θ.

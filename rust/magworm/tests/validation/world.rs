@@ -83,7 +83,7 @@ impl World {
     }
 
     pub fn node(&self, node: usize) -> [f64; 2] {
-        self.block.node_position(&self.model, node, 0)
+        self.block.node_position(&self.model, node, 0).xy().into()
     }
 
     /// Nodes over a length, from the wall of a clamped rod.
@@ -103,8 +103,8 @@ impl World {
             Anchor::Fixed => [0.0; 2],
             Anchor::Rigid { body, .. } => {
                 let ([x, y, _], here) =
-                    (self.block.magnet_pose(&self.model, body, 0), self.node(node));
-                let [vx, vy, rate] = self.block.magnet_velocity(&self.model, body, 0);
+                    (self.block.planar_pose(&self.model, body, 0), self.node(node));
+                let [vx, vy, rate] = self.block.planar_velocity(&self.model, body, 0);
                 [vx - rate * (here[1] - y), vy + rate * (here[0] - x)]
             }
         }

@@ -1,0 +1,147 @@
+//! Where the parts of a robot are, one lane at a time. In the plane z and all rotations but about z are 0.
+
+use super::block::Block;
+use crate::lanes::math::{atan2, sin_cos};
+use crate::model::{Anchor, Model};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+/// Pose of a body magnet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centre [m].
+    pub position_m: Vector3<f64>,
+    /// Rotation from the magnet's tangent, up and side to x, y, z.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+impl Pose {
+    /// Angle of the tangent in the plane x–y, anticlockwise [rad].
+    pub fn pitch_rad(&self) -> f64 {
+        let tangent = self.orientation * Vector3::x();
+        atan2(tangent.y, tangent.x)
+    }
+
+    /// Roll about its own tangent [rad]: the angle of its side over the ground, positive where its up leans
+    /// towards its side.
+    pub fn roll_rad(&self) -> f64 {
+        let (up, side) = (self.orientation * Vector3::y(), self.orientation * Vector3::z());
+        atan2(-side.y, up.y)
+    }
+}
+
+/// Velocity of a body magnet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    /// Of its centre [m/s].
+    pub linear_m_s: Vector3<f64>,
+    /// Angular velocity about x, y, z [rad/s].
+    pub angular_rad_s: Vector3<f64>,
+}
+
+impl<const W: usize> Block<W> {
+    /// Position [m] of a node in one lane.
+    pub fn node_position(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
+        let axes = model.dimensions();
+        match model.coordinates.anchors[node] {
+            Anchor::Free { dof } => self.vector(&self.q, dof, axes, lane),
+            Anchor::Rigid { body, side } => {
+                let arm = f64::from(side) * model.half_magnet_m;
+                let dof = model.coordinates.bodies[body];
+                self.vector(&self.q, dof, axes, lane) + self.tangent(model, body, lane) * arm
+            }
+            Anchor::Fixed => self.vector(&self.held, axes * node, axes, lane),
+        }
+    }
+
+    /// Pose of a body magnet in one lane.
+    pub fn magnet_pose(&self, model: &Model, magnet: usize, lane: usize) -> Pose {
+        let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
+        let position_m = self.vector(&self.q, dof, axes, lane);
+        let orientation = if axes == 2 {
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.q[dof + 2][lane])
+        } else {
+            let element = model.mesh.magnets[magnet].element;
+            let up = self.vector(&self.director, 6 * element, 3, lane);
+            let tangent = self.vector(&self.director, 6 * element + 3, 3, lane);
+            let matrix = Matrix3::from_columns(&[tangent, up, tangent.cross(&up)]);
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
+        };
+        Pose { position_m, orientation }
+    }
+
+    /// Velocity of a body magnet in one lane.
+    pub fn magnet_velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist {
+        let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
+        let angular_rad_s = if axes == 2 {
+            Vector3::z() * self.v[dof + 2][lane]
+        } else {
+            self.vector(&self.v, dof + 3, 3, lane)
+        };
+        Twist { linear_m_s: self.vector(&self.v, dof, axes, lane), angular_rad_s }
+    }
+
+    /// Position x, y [m] and angle [rad] of a body magnet in the plane x–y in one lane. In the plane the angle
+    /// counts whole turns; in space it is that of its tangent.
+    pub fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
+        let dof = model.coordinates.bodies[magnet];
+        let angle = if model.dimensions() == 2 {
+            self.q[dof + 2][lane]
+        } else {
+            self.magnet_pose(model, magnet, lane).pitch_rad()
+        };
+        [self.q[dof][lane], self.q[dof + 1][lane], angle]
+    }
+
+    /// Velocity of a body magnet in the plane x–y in one lane [m/s, m/s, rad/s].
+    pub fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
+        let Twist { linear_m_s, angular_rad_s } = self.magnet_velocity(model, magnet, lane);
+        [linear_m_s.x, linear_m_s.y, angular_rad_s.z]
+    }
+
+    /// x of the robot's centre in one lane [m]: mean of its magnets, or of its nodes where it has none.
+    pub fn centre_x(&self, model: &Model, lane: usize) -> f64 {
+        self.centre(model, 0, lane)
+    }
+
+    /// The robot seen from above in one lane: x, z of its centre [m], and its heading [rad].
+    ///
+    /// The heading is the yaw that would turn a straight robot along x so that its tail lies in the same
+    /// direction from its head as that of this one.
+    pub fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
+        if model.dimensions() == 2 {
+            return [self.centre_x(model, lane), 0.0, 0.0];
+        }
+        let [head, tail] = match model.coordinates.bodies.as_slice() {
+            [head, .., tail] => [*head, *tail].map(|dof| self.vector(&self.q, dof, 3, lane)),
+            _ => [0, model.nodes() - 1].map(|node| self.node_position(model, node, lane)),
+        };
+        let along = tail - head;
+        let heading = atan2(-along.z, along.x);
+        [self.centre(model, 0, lane), self.centre(model, 2, lane), heading]
+    }
+
+    /// Mean along an axis.
+    fn centre(&self, model: &Model, axis: usize, lane: usize) -> f64 {
+        let magnets = model.magnets();
+        if magnets == 0 {
+            let nodes = model.nodes();
+            let sum: f64 = (0..nodes).map(|n| self.node_position(model, n, lane)[axis]).sum();
+            return sum / nodes as f64;
+        }
+        let places = model.coordinates.bodies.iter().map(|&dof| self.q[dof + axis][lane]);
+        places.sum::<f64>() / magnets as f64
+    }
+
+    fn tangent(&self, model: &Model, body: usize, lane: usize) -> Vector3<f64> {
+        if model.dimensions() == 2 {
+            let (sin, cos) = sin_cos(self.q[model.coordinates.bodies[body] + 2][lane]);
+            return Vector3::new(cos, sin, 0.0);
+        }
+        self.vector(&self.director, 6 * model.mesh.magnets[body].element + 3, 3, lane)
+    }
+
+    fn vector(&self, rows: &[[f64; W]], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
+        let component = |k: usize| if k < axes { rows[first + k][lane] } else { 0.0 };
+        Vector3::new(component(0), component(1), component(2))
+    }
+}
