@@ -49,6 +49,7 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let (open, stick, slide) =
         (isa.splat(Mode::OPEN), isa.splat(Mode::STICK), isa.splat(Mode::SLIDE));
     let before = isa.load(&block.mode[c]);
+    isa.store(before, &mut block.mode_before[c]);
     let was_closed = !before.eq(open);
     let closed = was_closed | u_n.lt(zero);
     let speed = length::<I::F, D>(u_t);
@@ -75,7 +76,4 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
         isa.store(speed, &mut block.speed[c]);
     }
     isa.store(normal, &mut block.reckoned[c]);
-    // No pass before the first: nothing to extrapolate from.
-    isa.store(normal, &mut block.earlier[2 * c]);
-    isa.store(normal, &mut block.earlier[2 * c + 1]);
 }

@@ -15,12 +15,16 @@
 //! u of the pass before, λ_t = −F d − (F/|u|)(I − d dᵀ)(u⁺ − u): beside the force along d a viscous one across
 //! it, which is Newton's iteration for Coulomb's law and enters the matrix as one more rank-one term.
 
+mod divide;
 mod guess;
 mod points;
+mod settle;
 mod solve;
 
 pub use points::detect;
-pub use solve::{Ground, solve};
+pub use settle::MEMORY;
+pub use divide::{divide, join};
+pub use solve::{Ground, PATIENCE, solve};
 
 use crate::model::body_size;
 

@@ -11,8 +11,20 @@ use crate::state::Block;
 const RECOVERY_M_S: f64 = 0.1;
 
 /// Fills Jacobians, approach velocities and first guesses of the modes of all contact points.
-#[inline(always)]
 pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+) {
+    isa.vectorize(
+        #[inline(always)]
+        || detect_all::<W, D, I>(isa, model, ground, block),
+    );
+}
+
+#[inline(always)]
+fn detect_all<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
@@ -44,7 +56,7 @@ pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
                 isa.store(point.directions[direction][slot], entry);
             }
         }
-        let approach = (point.gap / model.step_s).max(isa.splat(-RECOVERY_M_S));
+        let approach = (point.gap / block.dt_s).max(isa.splat(-RECOVERY_M_S));
         isa.store(approach, &mut block.approach[c]);
         first_guess::<W, D, I>(isa, ground, block, c, u[0] + approach, [u[1], u[2]]);
     }

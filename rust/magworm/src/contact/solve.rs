@@ -7,6 +7,7 @@
 //! frozen, so the passes a neighbour still needs do not touch their bits.
 
 use super::guess::{along, direction, length};
+use super::settle::{forget, settle};
 use super::{Mode, SLOTS, jacobian_rows};
 use crate::elastic::{add_rank_one, add_scaled, rate};
 use crate::lanes::{Isa, Mask, Real};
@@ -15,12 +16,18 @@ use crate::state::Block;
 
 /// Relative change of a reckoned normal impulse below which it counts as settled.
 const SETTLED: f64 = 1e-5;
-/// The same, beyond which friction is no longer that of the point: half of it.
-const FAR: f64 = 0.5;
-/// Passes in which points may change their mode in every way. Points that share a foot may then take turns
-/// without end, so from here on a pass changes either what touches or how what touches slides, in turn. That
-/// treats all points alike: a mirrored robot moves as the mirror image.
-const PATIENCE: usize = 10;
+/// Passes in which everything may change at once: modes, directions and the impulses that friction reckons with.
+/// That may go round and round, so from here on what touches is settled first, with the friction of the pass
+/// before; then friction takes half of what it found.
+pub const PATIENCE: usize = 8;
+/// Passes from which on friction reckons with the impulses that it has: what is left is a convex problem. Rigid
+/// feet may have no solution of Coulomb's law (the paradox of Painlevé).
+const FROZEN: usize = 14;
+
+/// Adhesion is at most this multiple of the normal impulse. The paper's D_f is there however lightly a point touches
+/// and gone where it does not: where its lever lifts the point, neither holds. So it fades within the last
+/// fraction of a millinewton.
+const GRAZE: f64 = 4.0;
 
 /// Friction and penalty of each lane in one step.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +44,17 @@ pub struct Ground<F> {
     pub weight: F,
     /// Impulse below which changes do not matter [N·s].
     pub negligible: F,
+    /// Speed below which an open point does not sink [m/s]: what a closed one beside it may still be off.
+    pub slack: F,
 }
 
 impl<F: Real> Ground<F> {
+    /// μ λ_n + D_f Δt, the greatest tangential impulse.
+    #[inline(always)]
+    fn friction(&self, coefficient: F, normal: F) -> F {
+        coefficient * normal + self.adhesion.min(normal * GRAZE)
+    }
+
     /// The law in the lanes of a block.
     #[inline(always)]
     pub fn new(law: &GroundLaw, static_factor: F, dynamic_factor: F, dt: f64) -> Self {
@@ -54,59 +69,83 @@ impl<F: Real> Ground<F> {
             weight: one * law.weight_kg,
             // A ten-millionth of a node's weight over the step.
             negligible: one * (law.node_mass_kg * 1e-7 * 9.81 * dt),
+            // The penalty's residual under ten times a node's weight.
+            slack: one * (law.node_mass_kg * 10.0 * 9.81 * dt / law.weight_kg),
         }
     }
 }
 
-/// Solves for the velocities at the end of the step into `next`; updates impulses and modes.
-#[inline(always)]
+/// Solves for the velocities at the end of the step into `next`, in at most `passes` passes; updates impulses
+/// and modes. Which lanes have not settled by then.
 pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
-) {
-    let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
-    let (mut stale, mut wild) = (!done, done);
-    for pass in 0..model.scene.solver.contact_iterations {
-        solve_assumed::<W, D, I>(isa, model, ground, block, done, stale);
-        let change = update_modes::<W, D, I>(isa, model, ground, block, done, pass);
-        done = done | !(change.modes | change.impulses);
-        stale = (change.modes | change.directions) & !done;
-        wild = change.wild & !done;
-        if done.all() {
-            return;
-        }
-    }
-    if wild.any() {
-        stick(isa, model, block, !wild);
-        solve_assumed::<W, D, I>(isa, model, ground, block, !wild, wild);
-        update_modes::<W, D, I>(isa, model, ground, block, !wild, 0);
-    }
+    passes: usize,
+) -> I::M {
+    isa.vectorize(
+        #[inline(always)]
+        || iterate::<W, D, I>(isa, model, ground, block, passes),
+    )
 }
 
-/// Solves under the modes as they are assumed; the matrix of the lanes in `stale` has changed.
 #[inline(always)]
+fn iterate<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    passes: usize,
+) -> I::M {
+    let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
+    let mut stale = !done;
+    forget(isa, block);
+    for pass in 0..passes {
+        let refactor = stale.any();
+        solve_assumed::<W, D, I>(isa, model, ground, block, done, refactor.then_some(stale));
+        let change = judge::<W, D, I>(isa, model, ground, block, done, pass);
+        done = done | !(change.modes | change.impulses);
+        stale = (change.modes | change.directions) & !done;
+        if done.all() {
+            break;
+        }
+    }
+    !done
+}
+
+/// Solves under the modes as they are assumed; `stale`: lanes whose matrix has changed, if any has.
 fn solve_assumed<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     done: I::M,
-    stale: I::M,
+    stale: Option<I::M>,
 ) {
-    if stale.any() {
-        if D == 3 {
-            linearise(isa, model, ground, block, stale);
-        }
-        assemble_matrix::<W, D, I>(isa, model, ground, block);
+    if let Some(stale) = stale {
+        isa.vectorize(
+            #[inline(always)]
+            || {
+                if D == 3 {
+                    linearise(isa, model, ground, block, stale);
+                }
+                assemble_matrix::<W, D, I>(isa, model, ground, block);
+            },
+        );
         model.band.factor(isa, &mut block.factor);
         block.counters.factorisations += 1;
     }
-    assemble_right::<W, D, I>(isa, model, ground, block);
+    isa.vectorize(
+        #[inline(always)]
+        || assemble_right::<W, D, I>(isa, model, ground, block),
+    );
     model.band.solve(isa, &block.factor, &mut block.solution);
     block.counters.solves += 1;
-    accept(isa, block, done);
+    isa.vectorize(
+        #[inline(always)]
+        || accept(isa, block, done),
+    );
 }
 
 /// Friction of sliding points about their velocity in the pass before: the direction p across it, and the
@@ -121,8 +160,12 @@ fn linearise<const W: usize, I: Isa<W>>(
 ) {
     for c in 0..model.contacts.len() {
         let slip = load2::<W, 3, I>(isa, &block.slip, 2 * c);
+        let across = [-slip[1], slip[0]];
         let viscosity = viscosity(isa, ground, block, c, isa.load(&block.speed[c]));
-        let rows = [-slip[1], slip[0], viscosity, isa.splat(0.0)];
+        // u = (λ⁰ − ξ)/w, and ξ has no part across the direction.
+        let warm = load2::<W, 3, I>(isa, &block.warm, 3 * c + 1);
+        let about = along::<I::F, 3>(warm, across) / ground.weight;
+        let rows = [across[0], across[1], viscosity, about];
         for k in 0..4 {
             let row = &mut block.across[4 * c + k];
             isa.store(I::F::select(stale, rows[k], isa.load(row)), row);
@@ -130,7 +173,7 @@ fn linearise<const W: usize, I: Isa<W>>(
     }
 }
 
-/// F/|u|, no greater than the penalty.
+/// w F/|ξ| = F/|u| of a point that slides, no greater than the penalty; `speed` is |ξ|/w.
 #[inline(always)]
 fn viscosity<const W: usize, I: Isa<W>>(
     isa: I,
@@ -139,20 +182,9 @@ fn viscosity<const W: usize, I: Isa<W>>(
     c: usize,
     speed: I::F,
 ) -> I::F {
-    let friction = isa.load(&block.coefficient[c]) * isa.load(&block.reckoned[c]) + ground.adhesion;
+    let friction = ground.friction(isa.load(&block.coefficient[c]), isa.load(&block.reckoned[c]));
     let slowest = friction / ground.weight;
     friction / speed.max(slowest).max(isa.splat(1e-30))
-}
-
-/// Where the passes have run out and friction reckons with an impulse that grows from pass to pass: what is
-/// closed sticks in this step. That is a projection, which only takes energy.
-#[inline(always)]
-fn stick<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, done: I::M) {
-    let (open, stuck) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
-    for c in 0..model.contacts.len() {
-        let mode = isa.load(&block.mode[c]);
-        store_unless(isa, done, I::F::select(mode.eq(open), open, stuck), &mut block.mode[c]);
-    }
 }
 
 /// Which lanes a pass has changed.
@@ -161,8 +193,6 @@ struct Change<M> {
     impulses: M,
     /// A sliding point has another velocity than friction was linearised about.
     directions: M,
-    /// Friction of a sliding point is far from its normal impulse, or drives it.
-    wild: M,
 }
 
 #[inline(always)]
@@ -209,7 +239,7 @@ fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
         let stuck = mode.eq(isa.splat(Mode::STICK));
         let held = isa.load(&block.warm[D * c]) - ground.weight * isa.load(&block.approach[c]);
         let coefficient = isa.load(&block.coefficient[c]);
-        let friction = coefficient * isa.load(&block.reckoned[c]) + ground.adhesion;
+        let friction = ground.friction(coefficient, isa.load(&block.reckoned[c]));
         jacobian::<W, D, I>(isa, block, c, 0, &mut row);
         let impulse = I::F::select(open, zero, held);
         add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
@@ -284,8 +314,23 @@ fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
     }
 }
 
+/// Holds the solution against the laws: new modes, impulses and directions.
+fn judge<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    done: I::M,
+    pass: usize,
+) -> Change<I::M> {
+    isa.vectorize(
+        #[inline(always)]
+        || judge_all::<W, D, I>(isa, model, ground, block, done, pass),
+    )
+}
+
 #[inline(always)]
-fn update_modes<const W: usize, const D: usize, I: Isa<W>>(
+fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
@@ -295,19 +340,25 @@ fn update_modes<const W: usize, const D: usize, I: Isa<W>>(
 ) -> Change<I::M> {
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
-    let mut change = Change { modes: never, impulses: never, directions: never, wild: never };
+    let mut change = Change { modes: never, impulses: never, directions: never };
+    let frozen = pass >= FROZEN;
+    let parting =
+        if pass < PATIENCE { never } else { parting::<W, D, I>(isa, model, ground, block, frozen) };
     for c in 0..model.contacts.len() {
-        let point = Point::found::<W, D, I>(isa, model, ground, block, c);
+        let point = Point::found::<W, D, I>(isa, model, ground, block, c, frozen);
         let after = point.after::<W, D, I>(isa, ground);
         let moved = !after.mode.eq(point.mode);
         let closed = !after.mode.eq(isa.splat(Mode::OPEN));
         let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
         let drift = (after.normal - point.reckoned).abs();
         let tolerance = after.normal * SETTLED + ground.negligible;
-        let mut unsettled = sliding & drift.gt(tolerance);
+        let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
         if D == 3 {
-            let strays = sliding & veer(isa, ground, block, c, &point, &after, done).gt(tolerance);
-            let viscosity = viscosity(isa, ground, block, c, length::<I::F, D>(point.u_t));
+            let kept = done | parting;
+            let strays =
+                sliding & veer(isa, ground, block, c, &point, &after, kept).gt(tolerance);
+            let speed = length::<I::F, D>(point.held) / ground.weight;
+            let viscosity = viscosity(isa, ground, block, c, speed);
             let assumed = isa.load(&block.across[4 * c + 2]);
             let off = assumed.gt(viscosity * 4.0) | assumed.lt(viscosity * 0.5);
             change.directions = change.directions | (strays & off & !done);
@@ -315,30 +366,47 @@ fn update_modes<const W: usize, const D: usize, I: Isa<W>>(
         }
         change.modes = change.modes | (moved & !done);
         change.impulses = change.impulses | (unsettled & !done);
-        let slid = point.mode.eq(isa.splat(Mode::SLIDE));
-        let far = drift.gt(point.reckoned * FAR + ground.negligible);
-        let driven = along::<I::F, D>(point.u_t, point.slip).lt(-ground.transition_speed);
-        change.wild = change.wild | (slid & (far | driven));
         let parted = point.mode.eq(isa.splat(Mode::OPEN)) | !closed;
-        let waits = if pass < PATIENCE {
-            never
-        } else if pass.is_multiple_of(2) {
-            parted
-        } else {
-            !parted
-        };
+        let waits = parting & !parted;
         store_unless(isa, done | waits, after.mode, &mut block.mode[c]);
         store_unless(isa, done, after.normal, &mut block.normal[c]);
+        if frozen {
+            // One that opens now has no friction if it closes again, or it might take turns.
+            let opens = !done & after.mode.eq(isa.splat(Mode::OPEN));
+            let row = &mut block.reckoned[c];
+            isa.store(I::F::select(opens, zero, isa.load(row)), row);
+        }
         for t in 0..D - 1 {
             let row = (D - 1) * c + t;
             store_unless(isa, done, after.tangential[t], &mut block.tangential[row]);
-            let kept = done | (waits & moved);
-            store_unless(isa, kept, after.slip[t], &mut block.slip[row]);
+            store_unless(isa, done | waits, after.slip[t], &mut block.slip[row]);
         }
-        let next = extrapolate(isa, block, c, point.reckoned, after.normal);
-        store_unless(isa, done, next, &mut block.reckoned[c]);
+    }
+    if !frozen {
+        let pace = if pass < PATIENCE { 1.0 } else { 0.5 };
+        settle(isa, model, block, done | parting, change.modes, pace);
     }
     change
+}
+
+/// The lanes in which some point opens or closes.
+#[inline(always)]
+fn parting<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &Block<W>,
+    frozen: bool,
+) -> I::M {
+    let open = isa.splat(Mode::OPEN);
+    let mut parting = open.lt(open);
+    for c in 0..model.contacts.len() {
+        let point = Point::found::<W, D, I>(isa, model, ground, block, c, frozen);
+        let after = point.after::<W, D, I>(isa, ground);
+        let (was, is) = (point.mode.eq(open), after.mode.eq(open));
+        parting = parting | (was & !is) | (!was & is);
+    }
+    parting
 }
 
 /// How far the friction that a sliding point had in this pass is from that of the velocity found
@@ -353,7 +421,7 @@ fn veer<const W: usize, I: Isa<W>>(
     after: &After<I::F>,
     done: I::M,
 ) -> I::F {
-    let friction = point.coefficient * point.reckoned + ground.adhesion;
+    let friction = ground.friction(point.coefficient, point.reckoned);
     let p = load2::<W, 3, I>(isa, &block.across, 4 * c);
     let across = along::<I::F, 3>(point.u_t, p);
     let viscous =
@@ -363,33 +431,9 @@ fn veer<const W: usize, I: Isa<W>>(
         stray[t] = (after.slip[t] - point.slip[t]) * friction - p[t] * viscous;
     }
     store_unless(isa, done, across, &mut block.across[4 * c + 3]);
-    store_unless(isa, done, length::<I::F, 3>(point.u_t), &mut block.speed[c]);
+    let speed = length::<I::F, 3>(point.held) / ground.weight;
+    store_unless(isa, done, speed, &mut block.speed[c]);
     length::<I::F, 3>(stray)
-}
-
-/// The normal impulse to reckon with in the next pass.
-///
-/// For fixed modes the impulse found is linear in the impulse reckoned with, so a secant through
-/// two passes finds where both agree (Aitken's Δ²). Where the impulse found grows about as fast as the one
-/// reckoned with, or faster, there is no such place nearby and the impulse found is taken.
-#[inline(always)]
-fn extrapolate<const W: usize, I: Isa<W>>(
-    isa: I,
-    block: &mut Block<W>,
-    c: usize,
-    reckoned: I::F,
-    found: I::F,
-) -> I::F {
-    let earlier_reckoned = isa.load(&block.earlier[2 * c]);
-    let earlier_found = isa.load(&block.earlier[2 * c + 1]);
-    isa.store(reckoned, &mut block.earlier[2 * c]);
-    isa.store(found, &mut block.earlier[2 * c + 1]);
-    let run = reckoned - earlier_reckoned;
-    let rise = found - earlier_found;
-    let gentle = (rise * run).lt(run * run * 0.8);
-    let agreed =
-        found + (found - reckoned) * rise / I::F::select(gentle, run - rise, isa.splat(1.0));
-    I::F::select(gentle & agreed.gt(isa.splat(0.0)), agreed, found)
 }
 
 /// A contact point after a pass, under the mode it was assumed in.
@@ -397,6 +441,8 @@ struct Point<F> {
     mode: F,
     /// λ_n if it was closed.
     normal: F,
+    /// λ_n that bounds friction.
+    bound: F,
     /// λ_t if it was sticking.
     held: [F; 2],
     /// λ_n that friction reckoned with.
@@ -425,6 +471,7 @@ impl<F: Real> Point<F> {
         ground: &Ground<F>,
         block: &Block<W>,
         c: usize,
+        frozen: bool,
     ) -> Self {
         let stencil = &model.contacts[c].stencil;
         let mut row = [isa.splat(0.0); SLOTS];
@@ -436,11 +483,14 @@ impl<F: Real> Point<F> {
             u_t[t] = rate(isa, &block.next, stencil, &row);
             held[t] = isa.load(&block.warm[D * c + 1 + t]) - ground.weight * u_t[t];
         }
+        let normal = isa.load(&block.warm[D * c]) - ground.weight * u_n;
+        let reckoned = isa.load(&block.reckoned[c]);
         Self {
             mode: isa.load(&block.mode[c]),
-            normal: isa.load(&block.warm[D * c]) - ground.weight * u_n,
+            normal,
+            bound: if frozen { reckoned } else { normal.max(isa.splat(0.0)) },
             held,
-            reckoned: isa.load(&block.reckoned[c]),
+            reckoned,
             coefficient: isa.load(&block.coefficient[c]),
             slip: load2::<W, D, I>(isa, &block.slip, (D - 1) * c),
             u_n,
@@ -461,31 +511,31 @@ impl<F: Real> Point<F> {
         let is_stuck = self.mode.eq(stick);
 
         // Open points: close where they would sink, sticking if slow.
-        let sinks = self.u_n.lt(isa.splat(-1e-12));
+        let sinks = self.u_n.lt(-ground.slack);
         let slow = length::<F, D>(self.u_t).le(ground.transition_speed);
         let from_open = F::select(sinks, F::select(slow, stick, slide), open);
 
         // Closed points: open where they would pull, else hold or slide. Friction opposes sliding.
         let normal = self.normal.max(zero);
-        let limit = self.coefficient * normal + ground.adhesion;
+        let limit = ground.friction(self.coefficient, self.bound);
         let grip = length::<F, D>(self.held);
         let slips = grip.gt(limit);
         let from_stick = F::select(slips, slide, stick);
-        let reverses = along::<F, D>(self.u_t, self.slip).lt(zero);
+        let pushed = direction::<F, D>([-self.held[0], -self.held[1]]);
+        let reverses = along::<F, D>(pushed, self.slip).lt(zero) | !slips;
         let from_slide = F::select(reverses, stick, slide);
         let pulls = self.normal.lt(zero);
         let from_closed = F::select(pulls, open, F::select(is_stuck, from_stick, from_slide));
 
         let mode = F::select(is_open, from_open, from_closed);
         let normal = F::select(is_open, zero, normal);
-        let friction = self.coefficient * normal + ground.adhesion;
-        let pushed = direction::<F, D>([-self.held[0], -self.held[1]]);
-        let moving = direction::<F, D>(self.u_t);
+        let friction = limit;
+        let landing = direction::<F, D>(self.u_t);
         // Within the cone even where the passes run out: the next step starts from it.
         let within = if D == 2 { F::select(slips, limit, grip) } else { limit / grip.max(limit) };
         let mut after = After { mode, normal, tangential: [zero; 2], slip: [zero; 2] };
         for t in 0..D - 1 {
-            after.slip[t] = F::select(is_stuck, pushed[t], moving[t]);
+            after.slip[t] = F::select(is_open, landing[t], pushed[t]);
             let held = if D == 2 { -(within * pushed[t]) } else { self.held[t] * within };
             let sliding = -(friction * after.slip[t]);
             let tangential = F::select(mode.eq(stick), held, sliding);

@@ -75,7 +75,7 @@ fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
     Scheme {
         stiffness: factor(Parameter::Stiffness),
         damping_s: factor(Parameter::Damping) * model.scene.material.damping_time_s,
-        dt: model.step_s,
+        dt: block.dt_s,
         implicit: model.scene.solver.integrator == Integrator::Implicit,
     }
 }

@@ -11,6 +11,16 @@ use super::Isa;
 /// nodes that multipliers tie to a magnet from both sides; in space: rods, worms, magnets next to each other.
 const COMPILED: [usize; 7] = [5, 6, 8, 10, 11, 13, 16];
 
+/// Compiles an expression for the instruction set as a function of its own.
+macro_rules! vectorized {
+    ($isa:expr, $work:expr) => {
+        $isa.vectorize(
+            #[inline(always)]
+            || $work,
+        )
+    };
+}
+
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Band {
@@ -58,21 +68,19 @@ impl Band {
     }
 
     /// Factors in place: strictly lower entries become L, diagonal entries 1/D.
-    #[inline(always)]
     pub fn factor<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[f64; W]]) {
         match self.half_bandwidth {
-            5 => factor::<W, I, 5, 6>(isa, self.size, matrix),
-            6 => factor::<W, I, 6, 7>(isa, self.size, matrix),
-            8 => factor::<W, I, 8, 9>(isa, self.size, matrix),
-            10 => factor::<W, I, 10, 11>(isa, self.size, matrix),
-            11 => factor::<W, I, 11, 12>(isa, self.size, matrix),
-            13 => factor::<W, I, 13, 14>(isa, self.size, matrix),
-            _ => factor::<W, I, 16, 17>(isa, self.size, matrix),
+            5 => vectorized!(isa, factor::<W, I, 5, 6>(isa, self.size, matrix)),
+            6 => vectorized!(isa, factor::<W, I, 6, 7>(isa, self.size, matrix)),
+            8 => vectorized!(isa, factor::<W, I, 8, 9>(isa, self.size, matrix)),
+            10 => vectorized!(isa, factor::<W, I, 10, 11>(isa, self.size, matrix)),
+            11 => vectorized!(isa, factor::<W, I, 11, 12>(isa, self.size, matrix)),
+            13 => vectorized!(isa, factor::<W, I, 13, 14>(isa, self.size, matrix)),
+            _ => vectorized!(isa, factor::<W, I, 16, 17>(isa, self.size, matrix)),
         }
     }
 
     /// Solves in place with a factored matrix.
-    #[inline(always)]
     pub fn solve<const W: usize, I: Isa<W>>(
         &self,
         isa: I,
@@ -80,13 +88,13 @@ impl Band {
         right: &mut [[f64; W]],
     ) {
         match self.half_bandwidth {
-            5 => solve::<W, I, 5, 6>(isa, factored, right),
-            6 => solve::<W, I, 6, 7>(isa, factored, right),
-            8 => solve::<W, I, 8, 9>(isa, factored, right),
-            10 => solve::<W, I, 10, 11>(isa, factored, right),
-            11 => solve::<W, I, 11, 12>(isa, factored, right),
-            13 => solve::<W, I, 13, 14>(isa, factored, right),
-            _ => solve::<W, I, 16, 17>(isa, factored, right),
+            5 => vectorized!(isa, solve::<W, I, 5, 6>(isa, factored, right)),
+            6 => vectorized!(isa, solve::<W, I, 6, 7>(isa, factored, right)),
+            8 => vectorized!(isa, solve::<W, I, 8, 9>(isa, factored, right)),
+            10 => vectorized!(isa, solve::<W, I, 10, 11>(isa, factored, right)),
+            11 => vectorized!(isa, solve::<W, I, 11, 12>(isa, factored, right)),
+            13 => vectorized!(isa, solve::<W, I, 13, 14>(isa, factored, right)),
+            _ => vectorized!(isa, solve::<W, I, 16, 17>(isa, factored, right)),
         }
     }
 }

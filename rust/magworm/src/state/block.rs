@@ -54,6 +54,8 @@ pub struct Counters {
     pub factorisations: u64,
     /// Wrenches of one drive magnet on one body magnet.
     pub wrenches: u64,
+    /// Steps that some lane took in parts, see [`crate::step`].
+    pub divided: u64,
 }
 
 impl Counters {
@@ -64,6 +66,7 @@ impl Counters {
             solves: self.solves + other.solves,
             factorisations: self.factorisations + other.factorisations,
             wrenches: self.wrenches + other.wrenches,
+            divided: self.divided + other.divided,
         }
     }
 }
@@ -139,14 +142,18 @@ pub struct Block<const W: usize> {
     /// Jacobians of the contacts, normal then tangential, over the unknowns of a magnet, shape
     /// [contacts × 2 × 3], in space [contacts × 3 × 6].
     pub jacobian: Rows<W>,
+    /// State of each contact at the start of the step, shape [contacts].
+    pub mode_before: Rows<W>,
     /// Normal velocity that a contact must reach at least [m/s], shape [contacts].
     pub approach: Rows<W>,
     /// Coefficient of friction in this step, shape [contacts].
     pub coefficient: Rows<W>,
     /// Normal impulse that friction reckons with [N·s], shape [contacts].
     pub reckoned: Rows<W>,
-    /// Normal impulse reckoned with, and found, in the pass before [N·s], shape [contacts × 2].
-    pub earlier: Rows<W>,
+    /// What is kept of earlier passes [N·s], see [`crate::contact::MEMORY`], shape [contacts × 4].
+    pub memory: Rows<W>,
+    /// How many passes that are, shape [1].
+    pub remembered: Rows<W>,
     /// Impulses of the last step, where the penalties start from [N·s], shape [contacts × D].
     pub warm: Rows<W>,
     /// Direction in which each contact slides, shape [contacts × (D − 1)].
@@ -156,6 +163,10 @@ pub struct Block<const W: usize> {
     /// In space the direction across it that friction is linearised along, its viscosity [kg] and the velocity
     /// that it is linearised about [m/s], shape [contacts × 4].
     pub across: Rows<W>,
+    /// 1 where a lane takes this step in parts, shape [1].
+    pub divided: Rows<W>,
+    /// The time step in force [s]: the scene's, or a part of it.
+    pub dt_s: f64,
     /// Work done.
     pub counters: Counters,
 }
@@ -200,14 +211,18 @@ impl<const W: usize> Block<W> {
             solution: zeros(unknowns),
             next: zeros(unknowns),
             jacobian: zeros(contacts * crate::contact::jacobian_rows(dimensions)),
+            mode_before: zeros(contacts),
             approach: zeros(contacts),
             coefficient: zeros(contacts),
             reckoned: zeros(contacts),
-            earlier: zeros(2 * contacts),
+            memory: zeros(crate::contact::MEMORY * contacts),
+            remembered: zeros(1),
             warm: zeros(dimensions * contacts),
             slip: zeros((dimensions - 1) * contacts),
             speed: in_space(contacts),
             across: in_space(4 * contacts),
+            divided: zeros(1),
+            dt_s: model.step_s,
             counters: Counters::default(),
         };
         (0..W).for_each(|lane| crate::reset::rest(model, &mut this, lane));
