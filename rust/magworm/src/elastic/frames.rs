@@ -70,6 +70,7 @@ pub fn turn<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<
         let turned = add_scaled(&scaled(&up, over - 1.0), angle * over, &side);
         keep3(isa, go, &turned, &mut block.director, 6 * element);
     }
+    let one = isa.splat(1.0);
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
         let element = model.mesh.magnets[body].element;
         let rate = load3(isa, &block.next, dof + 3);
@@ -80,7 +81,11 @@ pub fn turn<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<
         let axes = [t, up, cross(&t, &up)];
         let mut after = [isa.splat(0.0); 3];
         for k in 0..3 {
-            let share = dot(&axes[k], &momentum) / isa.load(&block.mass[dof + 3 + k]);
+            let moment = isa.load(&block.mass[dof + 3 + k]);
+            // A robot without mass keeps its rate.
+            let heavy = moment.gt(isa.splat(0.0));
+            let of_momentum = dot(&axes[k], &momentum) / I::F::select(heavy, moment, one);
+            let share = I::F::select(heavy, of_momentum, dot(&axes[k], &rate));
             after = add_scaled(&after, share, &axes[k]);
         }
         keep3(isa, go, &up, &mut block.director, 6 * element);
