@@ -1,11 +1,10 @@
 //! Stepping allocates nothing. In a test binary of its own with a single test: the counter sees every thread.
 
-use magworm::model::Model;
-use magworm::scene::Scene;
+mod scenes;
+
 use magworm::state::{Batch, LaneChoice, Status, StepOutput};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
-use std::sync::Arc;
 
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
@@ -23,17 +22,17 @@ struct Caller {
 }
 
 impl Caller {
-    fn new(preset: &str, lanes: LaneChoice, threads: usize) -> Self {
-        let scene = Scene::preset(preset).expect("a preset");
-        let model = Arc::new(Model::compile(&scene).expect("a model"));
+    fn new(scene: &str, lanes: LaneChoice, threads: usize) -> Self {
+        let model = scenes::model(scene);
         let width = magworm::observe::size(&model);
+        let actions = magworm::observe::action_size(&model) * ENVIRONMENTS;
         let mut batch = Batch::new(model, ENVIRONMENTS, lanes, Some(threads));
         // Almost no stiffness: one environment breaks on the way.
         batch.factors_mut()[0] = 1e-9;
         (0..ENVIRONMENTS).for_each(|environment| batch.reset(environment, 1, 0, None));
         Self {
             batch,
-            actions: (0..3 * ENVIRONMENTS).map(|k| (k as f64).sin()).collect(),
+            actions: (0..actions).map(|k| (k as f64).sin()).collect(),
             observation: vec![0.0; ENVIRONMENTS * width],
             progress_m: vec![0.0; ENVIRONMENTS],
             status: vec![0; ENVIRONMENTS],
@@ -64,15 +63,19 @@ impl Caller {
 }
 
 /// Allocations and reallocations while a caller goes on, once it has warmed up.
-fn allocations(preset: &str, lanes: LaneChoice, threads: usize) -> usize {
-    let mut caller = Caller::new(preset, lanes, threads);
+fn allocations(scene: &str, lanes: LaneChoice, threads: usize) -> usize {
+    let mut caller = Caller::new(scene, lanes, threads);
     caller.go_on(5);
     let region = Region::new(COUNTING);
     caller.go_on(CONTROL_STEPS);
     let change = region.change();
-    assert!(caller.batch.status(1) == Status::Running, "{preset}: nothing was stepped");
+    assert!(caller.batch.status(1) == Status::Running, "{scene}: nothing was stepped");
     change.allocations + change.reallocations
 }
+
+/// Scenes that together step through every kernel.
+const SCENES: [&str; 5] =
+    ["three magnets", "belt", "cantilever", "three magnets in space", "belt in space"];
 
 /// Most allocations of rayon's queue: it makes a new block for every 63 jobs handed to the pool, and
 /// `step` and `advance` hand in one each. Where the threads are interrupted, what they leave to be freed
@@ -83,11 +86,11 @@ const QUEUE: usize = 2 * (2 * CONTROL_STEPS).div_ceil(63);
 fn stepping_allocates_nothing() {
     // One thread first: threads of a pool that is gone still tidy up after themselves.
     for (threads, most) in [(1, 0), (2, QUEUE)] {
-        for preset in ["paper-3", "belt-125", "cantilever"] {
+        for scene in SCENES {
             for lanes in [LaneChoice::Wide, LaneChoice::Scalar] {
-                let count = allocations(preset, lanes, threads);
-                println!("{preset}, {lanes:?}, {threads} threads: {count}");
-                assert!(count <= most, "{preset}, {lanes:?}, {threads} threads: {count}");
+                let count = allocations(scene, lanes, threads);
+                println!("{scene}, {lanes:?}, {threads} threads: {count}");
+                assert!(count <= most, "{scene}, {lanes:?}, {threads} threads: {count}");
             }
         }
     }

@@ -1,22 +1,15 @@
 //! Equal bits, however environments are laid out: lanes, threads, batch sizes, places in a batch.
 
 mod bits_world;
+mod scenes;
 
 use bits_world::{Record, World, run};
+use magworm::contact::Mode;
 use magworm::model::Model;
-use magworm::scene::Scene;
 use magworm::state::LaneChoice::{self, Scalar, Wide};
 use magworm::state::Status;
+use scenes::model;
 use std::sync::Arc;
-
-fn compile(preset: &str, edits: &[(&str, &str)]) -> Arc<Model> {
-    let edits: Vec<_> = edits
-        .iter()
-        .map(|(path, value)| (path.to_string(), Some(value.parse().expect("TOML"))))
-        .collect();
-    let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
-    Arc::new(Model::compile(&scene.expect("a valid scene")).expect("a model"))
-}
 
 /// The records of some robots, `[control step][place]`.
 fn records(
@@ -44,100 +37,130 @@ fn assert_equal(here: &[Vec<Record>], there: &[Vec<Record>], places: &[usize], w
 /// Thirteen robots fill one block and part of a second. `broken`: how many at least must break
 /// midway, to show that they do not touch the bits of their neighbours.
 #[track_caller]
-fn lanes_agree(model: &Arc<Model>, steps: u64, broken: usize) {
+fn lanes_agree(scene: &str, steps: u64, broken: usize) {
+    let model = model(scene);
     let robots: Vec<u64> = (0..13).collect();
-    let mut wide = World::new(model, &robots, Wide, 1);
+    let mut wide = World::new(&model, &robots, Wide, 1);
     let in_lanes = run(&mut wide, steps);
     let runs = |&place: &usize| wide.batch.status(place) == Status::Running;
     let running = (0..13).filter(runs).count();
-    assert!(running >= 5 && 13 - running >= broken, "{running} of 13 run");
-    let one_by_one = records(model, &robots, Scalar, 1, steps);
+    assert!(running >= 5 && 13 - running >= broken, "{scene}: {running} of 13 run");
+    let one_by_one = records(&model, &robots, Scalar, 1, steps);
     let places: Vec<usize> = (0..13).collect();
-    assert_equal(&one_by_one, &in_lanes, &places, "scalar and wide");
+    assert_equal(&one_by_one, &in_lanes, &places, &format!("{scene}, scalar and wide"));
 }
 
 #[test]
 fn records_tell_robots_and_control_steps_apart() {
-    let records = records(&compile("paper-3", &[]), &[0, 1, 2], Wide, 1, 20);
-    let all: Vec<&Record> = records.iter().flatten().collect();
-    assert!((1..all.len()).all(|k| !all[..k].contains(&all[k])));
+    for scene in ["three magnets", "three magnets in space"] {
+        let records = records(&model(scene), &[0, 1, 2], Wide, 1, 20);
+        let all: Vec<&Record> = records.iter().flatten().collect();
+        assert!((1..all.len()).all(|k| !all[..k].contains(&all[k])));
+    }
+}
+
+/// What the feet of robots in space do: [open, sticking], and sliding towards each of eight directions.
+#[test]
+fn robots_in_space_step_stick_and_slide_in_every_direction() {
+    let model = model("three magnets in space");
+    let robots: Vec<u64> = (0..13).collect();
+    let mut world = World::new(&model, &robots, Wide, 1);
+    let (mut open, mut stuck, mut slid) = (0, 0, [0; 8]);
+    for _ in 0..150 {
+        world.step();
+        for place in 0..robots.len() {
+            for contact in 0..model.contacts.len() {
+                let [mode, _, x, z] = world.batch.view(place, |view| view.contact(contact))[..]
+                else {
+                    panic!("a contact in space has two tangential impulses")
+                };
+                if mode == Mode::OPEN {
+                    open += 1;
+                } else if mode == Mode::STICK {
+                    stuck += 1;
+                } else {
+                    let turns = z.atan2(x) / std::f64::consts::TAU + 1.0;
+                    slid[(8.0 * turns) as usize % 8] += 1;
+                }
+            }
+        }
+    }
+    println!("open {open}, sticking {stuck}, sliding {slid:?}");
+    assert!(open > 100 && stuck > 100 && slid.iter().all(|&count| count > 20));
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_three_magnets() {
-    lanes_agree(&compile("paper-3", &[]), 300, 3);
+    lanes_agree("three magnets", 300, 3);
+    lanes_agree("three magnets in space", 200, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_four_magnets() {
-    lanes_agree(&compile("paper-4", &[]), 300, 3);
+    lanes_agree("four magnets", 300, 3);
+    lanes_agree("four magnets in space without yaw", 150, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_five_magnets() {
-    lanes_agree(&compile("paper-5", &[]), 300, 3);
+    lanes_agree("five magnets", 300, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_on_a_belt() {
-    lanes_agree(&compile("belt-125", &[]), 300, 3);
+    lanes_agree("belt", 300, 3);
+    lanes_agree("belt in space", 200, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_a_cantilever() {
-    lanes_agree(&compile("cantilever", &[]), 300, 1);
+    lanes_agree("cantilever", 300, 1);
+    lanes_agree("cantilever in space", 200, 1);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_on_an_incline() {
-    lanes_agree(&compile("incline-block", &[]), 300, 1);
+    lanes_agree("incline", 300, 1);
+    lanes_agree("incline in space", 200, 1);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_with_lagrange_multipliers() {
-    let explicit = [
-        ("solver.integrator", "'explicit'"),
-        ("solver.step_s", "1e-5"),
-        ("control.step_s", "5e-4"),
-        ("material.damping_time_s", "1e-4"),
-    ];
-    lanes_agree(&compile("paper-3", &explicit), 200, 1);
+    lanes_agree("multipliers", 200, 1);
+    lanes_agree("multipliers in space", 120, 1);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_in_a_uniform_field() {
-    let field = [("field", "{ x_t = 0.01, y_t = -0.02 }")];
-    lanes_agree(&compile("paper-4", &field), 300, 3);
+    lanes_agree("uniform field", 300, 3);
+    lanes_agree("uniform field in space", 150, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_dipoles_with_varied_parameters() {
-    let varied = [
-        ("solver.magnet_model", "'dipole'"),
-        ("ground.adhesion_n", "1e-4"),
-        ("drive.arrangement", "{ kind = 'pair', spacing_m = 0.06, second_polarity = -1 }"),
-        ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
-    ];
-    lanes_agree(&compile("paper-3", &varied), 300, 3);
+    lanes_agree("dipoles with varied parameters", 300, 3);
+    lanes_agree("dipoles with varied parameters in space", 200, 3);
 }
 
 #[test]
 fn scalar_and_wide_lanes_give_equal_bits_on_waypoints() {
-    let motion = "{ kind = 'waypoints', time_s = [0.0, 0.3, 1.1], x_m = [0.02, 0.02, 0.1], \
-                  y_m = [-0.052, -0.022, -0.03] }";
-    lanes_agree(&compile("paper-3", &[("drive.motion", motion)]), 200, 3);
+    lanes_agree("waypoints", 200, 3);
+    lanes_agree("waypoints in space", 150, 3);
 }
 
 #[test]
 fn any_number_of_threads_gives_equal_bits() {
-    let model = compile("paper-3", &[]);
     let robots: Vec<u64> = (0..61).collect();
     let places: Vec<usize> = (0..61).collect();
-    for lanes in [Wide, Scalar] {
-        let alone = records(&model, &robots, lanes, 1, 40);
-        for threads in [2, 3, 7] {
-            let shared = records(&model, &robots, lanes, threads, 40);
-            assert_equal(&alone, &shared, &places, &format!("{lanes:?}, {threads} threads"));
+    for (scene, steps) in [("three magnets", 40), ("three magnets in space", 25)] {
+        let model = model(scene);
+        for lanes in [Wide, Scalar] {
+            let alone = records(&model, &robots, lanes, 1, steps);
+            for threads in [2, 3, 7] {
+                let shared = records(&model, &robots, lanes, threads, steps);
+                let what = format!("{scene}, {lanes:?}, {threads} threads");
+                assert_equal(&alone, &shared, &places, &what);
+            }
         }
     }
 }
@@ -155,28 +178,32 @@ fn each_alone(model: &Arc<Model>, robots: u64, steps: u64) -> Vec<Vec<Record>> {
 
 #[test]
 fn an_environment_in_a_batch_of_any_size_equals_the_same_alone() {
-    for preset in ["paper-3", "belt-125"] {
-        let model = compile(preset, &[]);
-        let alone = each_alone(&model, 64, 40);
+    for (scene, steps) in
+        [("three magnets", 40), ("belt", 40), ("three magnets in space", 25), ("belt in space", 25)]
+    {
+        let model = model(scene);
+        let alone = each_alone(&model, 64, steps);
         for count in [1, 5, 8, 13, 64] {
             let robots: Vec<u64> = (0..count).collect();
             let places: Vec<usize> = (0..count as usize).collect();
-            let together = records(&model, &robots, Wide, 2, 40);
-            assert_equal(&alone, &together, &places, &format!("{preset}, batch of {count}"));
+            let together = records(&model, &robots, Wide, 2, steps);
+            assert_equal(&alone, &together, &places, &format!("{scene}, batch of {count}"));
         }
     }
 }
 
 #[test]
 fn the_place_in_a_batch_does_not_matter() {
-    let model = compile("paper-4", &[]);
     let robots: Vec<u64> = (0..21).collect();
-    let in_order = records(&model, &robots, Wide, 1, 60);
     // 8 is coprime to 21: every robot moves to another lane of another block.
     let places: Vec<usize> = (0..21).map(|place| (8 * place + 5) % 21).collect();
     let shuffled: Vec<u64> = places.iter().map(|&place| place as u64).collect();
-    for lanes in [Wide, Scalar] {
-        let moved = records(&model, &shuffled, lanes, 2, 60);
-        assert_equal(&in_order, &moved, &places, &format!("shuffled, {lanes:?}"));
+    for scene in ["four magnets", "dipoles with varied parameters in space"] {
+        let model = model(scene);
+        let in_order = records(&model, &robots, Wide, 1, 60);
+        for lanes in [Wide, Scalar] {
+            let moved = records(&model, &shuffled, lanes, 2, 60);
+            assert_equal(&in_order, &moved, &places, &format!("{scene}, shuffled, {lanes:?}"));
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! Equal bits on every instruction set of this processor, from SSE2 to AVX-512, and in plain `f64`.
 
+mod scenes;
+
 use magworm::lanes::{InstructionSet, Scalar, WIDE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
-use magworm::scene::{Integrator, PRESETS, Scene};
 use magworm::state::Block;
 use magworm::step::{advance, command};
 
@@ -19,6 +20,9 @@ fn start<const W: usize>(model: &Model, first: usize) -> Block<W> {
         let present: Vec<bool> = (0..model.magnets()).map(|m| m as u64 % 4 != robot % 5).collect();
         let mut pose = scene_start(model);
         pose.angle_rad += 0.01 * robot as f64;
+        if model.dimensions() == 3 {
+            pose.yaw_rad += 0.7 * robot as f64;
+        }
         reset(model, &mut block, lane, pose, &factors, &present, Draws::new(robot, 0));
     }
     block
@@ -29,7 +33,7 @@ fn act<const W: usize>(model: &Model, block: &mut Block<W>, first: usize, contro
     let Some(drive) = &model.program.drive else { return };
     for lane in 0..W {
         let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
-        let action: [f64; 3] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
+        let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
         command(model, drive, block, lane, &action);
     }
 }
@@ -63,24 +67,12 @@ fn alone(model: &Model, robot: usize) -> Vec<Vec<u64>> {
     steps.collect()
 }
 
-fn models() -> Vec<Model> {
-    let preset = |name: &&str| Scene::preset(name).expect("a preset");
-    let mut scenes: Vec<Scene> = PRESETS.iter().map(preset).collect();
-    let mut explicit = preset(&"paper-3");
-    explicit.solver.integrator = Integrator::Explicit;
-    explicit.solver.step_s = 1e-5;
-    explicit.control.step_s = 5e-4;
-    explicit.material.damping_time_s = 1e-4;
-    scenes.push(explicit);
-    scenes.iter().map(|scene| Model::compile(scene).expect("a model")).collect()
-}
-
 #[test]
 fn every_instruction_set_gives_equal_bits() {
     let sets = InstructionSet::available();
     println!("instruction sets: {:?}", sets.iter().map(|set| set.name()).collect::<Vec<_>>());
-    for model in models() {
-        let name = &model.scene.name;
+    for (name, ..) in scenes::SCENES {
+        let model = scenes::model(name);
         let widest = on(sets[0], &model);
         for set in &sets[1..] {
             assert!(on(*set, &model) == widest, "{name}: {} differs", set.name());

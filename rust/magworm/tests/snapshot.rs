@@ -1,19 +1,16 @@
 //! Snapshots: going on from one equals never having stopped, and a bad one changes nothing.
 
 mod bits_world;
+mod scenes;
 
 use bits_world::{MISHAP, Record, World, run};
 use magworm::model::Model;
-use magworm::scene::{PRESETS, Scene};
 use magworm::state::LaneChoice::{self, Scalar, Wide};
 use magworm::state::SnapshotError;
 use proptest::prelude::*;
 use proptest::sample::Index;
+use scenes::{SCENES, model};
 use std::sync::Arc;
-
-fn model(preset: &str) -> Arc<Model> {
-    Arc::new(Model::compile(&Scene::preset(preset).expect("a preset")).expect("a model"))
-}
 
 const ROBOTS: [u64; 11] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10];
 
@@ -58,15 +55,15 @@ fn go_on(world: &mut World) -> Vec<Vec<Record>> {
 
 #[test]
 fn going_on_from_a_snapshot_equals_never_having_stopped() {
-    for preset in PRESETS {
-        let model = model(preset);
+    for (scene, ..) in SCENES {
+        let model = model(scene);
         for (saved_in, restored_in) in [(Wide, Wide), (Wide, Scalar), (Scalar, Wide)] {
             let mut original = aged(&model, saved_in);
             let snapshot = original.batch.snapshot();
             let mut copy = another_state(&model, restored_in);
             assert_eq!(copy.batch.restore(&snapshot), Ok(()));
-            assert_eq!(copy.batch.snapshot(), snapshot, "{preset}: restored state differs");
-            let what = format!("{preset}, saved {saved_in:?}, restored {restored_in:?}");
+            assert_eq!(copy.batch.snapshot(), snapshot, "{scene}: restored state differs");
+            let what = format!("{scene}, saved {saved_in:?}, restored {restored_in:?}");
             assert_equal(&go_on(&mut original), &go_on(&mut copy), &what);
         }
     }
@@ -74,12 +71,14 @@ fn going_on_from_a_snapshot_equals_never_having_stopped() {
 
 #[test]
 fn saving_disturbs_nothing_and_the_same_state_saves_to_the_same_bytes() {
-    let model = model("paper-3");
-    let (mut saving, mut plain) = (aged(&model, Wide), aged(&model, Wide));
-    assert_eq!(saving.batch.snapshot(), saving.batch.snapshot());
-    assert_equal(&go_on(&mut saving), &go_on(&mut plain), "after saving");
-    assert_eq!(saving.batch.snapshot(), plain.batch.snapshot());
-    assert_eq!(aged(&model, Scalar).batch.snapshot(), aged(&model, Wide).batch.snapshot());
+    for scene in ["three magnets", "three magnets in space"] {
+        let model = model(scene);
+        let (mut saving, mut plain) = (aged(&model, Wide), aged(&model, Wide));
+        assert_eq!(saving.batch.snapshot(), saving.batch.snapshot());
+        assert_equal(&go_on(&mut saving), &go_on(&mut plain), "after saving");
+        assert_eq!(saving.batch.snapshot(), plain.batch.snapshot());
+        assert_eq!(aged(&model, Scalar).batch.snapshot(), aged(&model, Wide).batch.snapshot());
+    }
 }
 
 /// Asserts that a restore fails with this error and leaves the state as it was.
@@ -93,20 +92,21 @@ fn refuses(world: &mut World, bytes: &[u8], error: &SnapshotError) {
 
 #[test]
 fn a_snapshot_of_another_scene_is_refused() {
-    let snapshot = aged(&model("paper-3"), Wide).batch.snapshot();
-    for preset in PRESETS.iter().filter(|&&preset| preset != "paper-3") {
-        refuses(&mut aged(&model(preset), Wide), &snapshot, &SnapshotError::Scene);
+    let own = model("three magnets");
+    let snapshot = aged(&own, Wide).batch.snapshot();
+    for (scene, ..) in SCENES.iter().filter(|(scene, ..)| *scene != "three magnets") {
+        refuses(&mut aged(&model(scene), Wide), &snapshot, &SnapshotError::Scene);
     }
     // The same shapes, one value apart.
     let edit = [("gravity_m_s2".to_string(), Some(9.82.into()))];
-    let scene = Scene::preset("paper-3").and_then(|scene| scene.with_values(&edit));
+    let scene = own.scene.with_values(&edit);
     let other = Arc::new(Model::compile(&scene.expect("a scene")).expect("a model"));
     refuses(&mut aged(&other, Wide), &snapshot, &SnapshotError::Scene);
 }
 
 #[test]
 fn a_snapshot_of_another_number_of_environments_is_refused() {
-    let model = model("paper-3");
+    let model = model("three magnets");
     let snapshot = aged(&model, Wide).batch.snapshot();
     for expected in [0, 1, 10, 12, 16] {
         let robots: Vec<u64> = (0..expected).collect();
@@ -118,7 +118,7 @@ fn a_snapshot_of_another_number_of_environments_is_refused() {
 
 #[test]
 fn a_snapshot_cut_short_or_drawn_out_is_refused() {
-    let mut world = aged(&model("paper-3"), Wide);
+    let mut world = aged(&model("three magnets"), Wide);
     let snapshot = world.batch.snapshot();
     for length in (0..40).chain((40..snapshot.len()).step_by(997)).chain([snapshot.len() - 1]) {
         refuses(&mut world, &snapshot[..length], &SnapshotError::Malformed(length));
@@ -131,8 +131,8 @@ fn a_snapshot_cut_short_or_drawn_out_is_refused() {
 
 #[test]
 fn a_snapshot_with_an_unknown_status_is_refused_whole() {
-    let mut world = aged(&model("paper-3"), Wide);
-    let fresh = World::new(&model("paper-3"), &ROBOTS, Wide, 1);
+    let mut world = aged(&model("three magnets"), Wide);
+    let fresh = World::new(&model("three magnets"), &ROBOTS, Wide, 1);
     let mut snapshot = fresh.batch.snapshot();
     // The last environment's status lies ahead of its factors and magnets.
     let settings = 8 * Model::PARAMETERS.len() + fresh.batch.model().magnets();
@@ -143,14 +143,14 @@ fn a_snapshot_with_an_unknown_status_is_refused_whole() {
 
 #[test]
 fn an_empty_batch_can_be_saved_and_restored() {
-    let model = model("paper-3");
+    let model = model("three magnets");
     let snapshot = World::new(&model, &[], Wide, 1).batch.snapshot();
     assert_eq!(World::new(&model, &[], Scalar, 1).batch.restore(&snapshot), Ok(()));
 }
 
 /// Restores bytes of unknown origin: a refusal changes nothing, and what is taken over can be stepped.
-fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
-    let mut world = World::new(&model("paper-3"), &[1, 2, 3], Wide, 1);
+fn survives(scene: &str, bytes: &[u8]) -> Result<(), TestCaseError> {
+    let mut world = World::new(&model(scene), &[1, 2, 3], Wide, 1);
     let before = world.batch.snapshot();
     if world.batch.restore(bytes).is_err() {
         prop_assert_eq!(world.batch.snapshot(), before);
@@ -164,16 +164,18 @@ proptest! {
 
     #[test]
     fn garbage_does_not_panic(bytes: Vec<u8>) {
-        survives(&bytes)?;
-        survives(&[b"MAGWORM1", &bytes[..]].concat())?;
+        survives("three magnets", &bytes)?;
+        survives("three magnets", &[b"MAGWORM1", &bytes[..]].concat())?;
     }
 
     #[test]
     fn damaged_snapshots_do_not_panic(
         edits in prop::collection::vec((any::<Index>(), 0..12_usize, any::<[u8; 8]>()), 1..6),
         keep_length: bool,
+        in_space: bool,
     ) {
-        let world = World::new(&model("paper-3"), &[4, 5, 6], Scalar, 1);
+        let scene = if in_space { "three magnets in space" } else { "three magnets" };
+        let world = World::new(&model(scene), &[4, 5, 6], Scalar, 1);
         let mut bytes = world.batch.snapshot();
         for (index, removed, added) in edits {
             let start = index.index(bytes.len());
@@ -181,6 +183,6 @@ proptest! {
             let end = (start + removed).min(bytes.len());
             bytes.splice(start..end, added.into_iter().take(end - start));
         }
-        survives(&bytes)?;
+        survives(scene, &bytes)?;
     }
 }

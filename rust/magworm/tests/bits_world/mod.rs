@@ -47,8 +47,9 @@ impl World {
     /// One control step with random actions; every third is followed by a few solver steps.
     pub fn step(&mut self) {
         self.meet_fate();
+        let size = magworm::observe::action_size(self.batch.model());
         let actions: Vec<f64> =
-            self.robots.iter().flat_map(|&robot| action(robot, self.control_steps)).collect();
+            self.robots.iter().flat_map(|&robot| action(robot, self.control_steps, size)).collect();
         self.batch.step(
             &actions,
             StepOutput {
@@ -100,7 +101,11 @@ impl World {
             *is_in = draws.uniform(0.0, 1.0) < 0.8 || robot == 0;
         }
         let angle_rad = draws.uniform(-0.2, 0.2);
-        let tilted = StartPose { height_m: 0.004, angle_rad, ..StartPose::default() };
+        let mut tilted = StartPose { height_m: 0.004, angle_rad, ..StartPose::default() };
+        if self.batch.model().dimensions() == 3 {
+            tilted.z_m = draws.uniform(-0.02, 0.02);
+            tilted.yaw_rad = draws.uniform(-4.0, 4.0);
+        }
         self.batch.reset(place, robot, episode, (robot % 3 == 2).then_some(tilted));
     }
 
@@ -132,7 +137,7 @@ pub fn run(world: &mut World, steps: u64) -> Vec<Vec<Record>> {
 }
 
 /// A little beyond [−1, 1], so that clipping is part of the test.
-fn action(robot: u64, control_step: u64) -> [f64; 3] {
+fn action(robot: u64, control_step: u64, size: usize) -> Vec<f64> {
     let mut draws = Draws::new(robot, 1_000_000 + control_step / 4);
-    std::array::from_fn(|_| draws.uniform(-1.1, 1.1))
+    (0..size).map(|_| draws.uniform(-1.1, 1.1)).collect()
 }

@@ -1,0 +1,147 @@
+//! Scenes that the contracts of stepping are checked in, in the plane and in space.
+
+use magworm::model::Model;
+use magworm::scene::Scene;
+use std::sync::Arc;
+
+/// Fields of a scene and their values in TOML.
+type Edits = &'static [(&'static str, &'static str)];
+
+/// Name, preset and edits of each scene.
+pub const SCENES: &[(&str, &str, Edits)] = &[
+    ("three magnets", "paper-3", &[]),
+    ("four magnets", "paper-4", &[]),
+    ("five magnets", "paper-5", &[]),
+    ("steps of half a millisecond", "paper-3-experiment", &[]),
+    ("belt", "belt-125", &[]),
+    ("cantilever", "cantilever", &[]),
+    ("incline", "incline-block", &[]),
+    (
+        "multipliers",
+        "paper-3",
+        &[
+            ("solver.integrator", "'explicit'"),
+            ("solver.step_s", "1e-5"),
+            ("control.step_s", "5e-4"),
+            ("material.damping_time_s", "1e-4"),
+        ],
+    ),
+    ("uniform field", "paper-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
+    (
+        "dipoles with varied parameters",
+        "paper-3",
+        &[
+            ("solver.magnet_model", "'dipole'"),
+            ("ground.adhesion_n", "1e-4"),
+            ("drive.arrangement", "{ kind = 'pair', spacing_m = 0.06, second_polarity = -1 }"),
+            ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
+        ],
+    ),
+    (
+        "waypoints",
+        "paper-3",
+        &[(
+            "drive.motion",
+            "{ kind = 'waypoints', time_s = [0.0, 0.3, 1.1], x_m = [0.02, 0.02, 0.1], \
+             y_m = [-0.052, -0.022, -0.03] }",
+        )],
+    ),
+    (
+        "three magnets in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.04"),
+            ("drive.motion.yaw_reach_deg", "120"),
+        ],
+    ),
+    (
+        "four magnets in space without yaw",
+        "paper-4",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.03"),
+            ("start.yaw_deg", "130"),
+            ("solver.curvature", "'tangent'"),
+        ],
+    ),
+    (
+        "belt in space",
+        "belt-125",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.z_m", "0.004"),
+            ("drive.motion.yaw_deg", "25"),
+            ("start.yaw_deg", "-8"),
+        ],
+    ),
+    (
+        "cantilever in space",
+        "cantilever",
+        &[("dimensions", "3"), ("start.yaw_deg", "40"), ("start.angle_deg", "20")],
+    ),
+    ("incline in space", "incline-block", &[("dimensions", "3"), ("start.yaw_deg", "65")]),
+    (
+        "multipliers in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("drive.motion.yaw_reach_deg", "90"),
+            ("solver.integrator", "'explicit'"),
+            ("solver.step_s", "1e-5"),
+            ("control.step_s", "5e-4"),
+            ("material.damping_time_s", "2e-5"),
+            // Short elements bend fast to the side, where the body is wide.
+            ("body.elements_per_bridge", "2"),
+        ],
+    ),
+    (
+        "uniform field in space",
+        "paper-4",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("field", "{ x_t = 0.01, y_t = -0.02, z_t = 0.015 }"),
+        ],
+    ),
+    (
+        "dipoles with varied parameters in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.03"),
+            ("drive.motion.yaw_reach_deg", "180"),
+            ("solver.magnet_model", "'dipole'"),
+            ("ground.adhesion_n", "1e-4"),
+            ("drive.arrangement", "{ kind = 'pair', spacing_m = 0.06, second_polarity = -1 }"),
+            ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
+        ],
+    ),
+    (
+        "waypoints in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            (
+                "drive.motion",
+                "{ kind = 'waypoints', time_s = [0.0, 0.3, 1.1], x_m = [0.02, 0.02, 0.1], \
+                 y_m = [-0.052, -0.022, -0.03], z_m = [0.01, 0.005, -0.03], \
+                 yaw_deg = [-30, 20, 200] }",
+            ),
+        ],
+    ),
+];
+
+/// The model of a scene; its name is that of the list.
+pub fn model(name: &str) -> Arc<Model> {
+    let place = SCENES.iter().position(|(listed, ..)| *listed == name);
+    let (_, preset, edits) = SCENES[place.expect("a listed scene")];
+    let edits: Vec<_> = edits
+        .iter()
+        .map(|(path, value)| (path.to_string(), Some(value.parse().expect("TOML"))))
+        .chain([("name".to_string(), Some(name.into()))])
+        .collect();
+    let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
+    Arc::new(Model::compile(&scene.expect("a valid scene")).expect("a model"))
+}
