@@ -108,7 +108,8 @@ fn run(model: Model, extremes: &[f64], seed: u64) -> Result<(), TestCaseError> {
     for _ in 0..CONTROL_STEPS {
         let before: Vec<_> =
             (0..ENVIRONMENTS).map(|e| (batch.status(e), numbers(&batch, e))).collect();
-        let actions: Vec<f64> = (0..3 * ENVIRONMENTS).map(|_| draws.uniform(-1.0, 1.0)).collect();
+        let actions = magworm::observe::action_size(&model) * ENVIRONMENTS;
+        let actions: Vec<f64> = (0..actions).map(|_| draws.uniform(-1.0, 1.0)).collect();
         let written = step(&mut batch, &actions);
         check(&batch, &written)?;
         for (environment, (status, numbers_before)) in before.into_iter().enumerate() {
@@ -135,6 +136,13 @@ fn short(mut scene: Scene) -> Scene {
     scene
 }
 
+/// Scenes in the plane and in space.
+fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
+    let (flat, spatial) =
+        (scene_strategy::scene(most_nodes, 2), scene_strategy::scene(most_nodes, 3));
+    prop_oneof![flat, spatial].prop_map(short)
+}
+
 fn extremes() -> impl Strategy<Value = Vec<f64>> {
     let factor = prop_oneof![
         2 => Just(0.0),
@@ -151,7 +159,7 @@ proptest! {
 
     #[test]
     fn random_valid_scenes_run(
-        scene in scene_strategy::scene(24, 2).prop_map(short),
+        scene in scene(24),
         extremes in extremes(),
         seed: u64,
     ) {
@@ -162,7 +170,7 @@ proptest! {
 
     #[test]
     fn scenes_spoiled_in_code_are_refused_or_run(
-        mut scene in scene_strategy::scene(16, 2).prop_map(short),
+        mut scene in scene(16),
         number in prop_oneof![prop::num::f64::ANY, -1.0..1.0, Just(0.0)],
         place in 0..12_usize,
         seed: u64,
@@ -180,7 +188,7 @@ proptest! {
 
     #[test]
     fn large_random_scenes_run(
-        scene in scene_strategy::scene(300, 2).prop_map(short),
+        scene in scene(300),
         extremes in extremes(),
         seed: u64,
     ) {
