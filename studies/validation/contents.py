@@ -95,6 +95,15 @@ SECTIONS = (
             "stride_in_the_quadrature": "refined quadrature",
         },
     ),
+    Section(
+        "In space",
+        "Scenes with `dimensions = 3`.",
+        {
+            "the_wrench_in_a_step_in_space": "converged table; closed forms",
+            "mirror_images_in_space": "symmetry",
+            "turned_scenes_in_space": "symmetry",
+        },
+    ),
 )
 
 NAMES = tuple(name for section in SECTIONS for name in section.cases)

@@ -24,6 +24,8 @@ mod magnet_symmetry;
 mod magnet_wrench;
 mod odd_bodies;
 mod space_crawl;
+mod space_symmetry;
+mod space_wrench;
 mod statics;
 mod statics_buckling;
 mod statics_magnet;
