@@ -118,10 +118,8 @@ fn lever<const W: usize, I: Isa<W>>(isa: I, r: &[I::F; 3], point: &mut Point<I::
         let mut a = [isa.splat(0.0); 3];
         a[axis] = isa.splat(1.0);
         let turn = cross(r, &a);
-        for k in 0..3 {
-            point.directions[direction][k] = a[k];
-            point.directions[direction][3 + k] = turn[k];
-        }
+        point.directions[direction][..3].copy_from_slice(&a);
+        point.directions[direction][3..].copy_from_slice(&turn);
     }
 }
 
