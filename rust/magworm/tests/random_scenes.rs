@@ -1,5 +1,6 @@
 //! Random scenes all the way through: compile, reset, step. Nothing panics, nothing that leaves the
-//! library is infinite or not a number, and what has broken stands still until its reset.
+//! library is infinite or not a number, what has broken stands still until its reset, and all bits are equal
+//! in scalar and wide lanes.
 //!
 //! `PROPTEST_CASES` sets the number of scenes.
 
@@ -88,8 +89,7 @@ fn check(batch: &Batch, written: &Written) -> Result<(), TestCaseError> {
 }
 
 /// Three environments: the scene's own, one with extreme parameters, one with magnets removed.
-fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64) -> Batch {
-    let lanes = if seed.is_multiple_of(2) { LaneChoice::Wide } else { LaneChoice::Scalar };
+fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64, lanes: LaneChoice) -> Batch {
     let mut batch = Batch::new(Arc::clone(model), ENVIRONMENTS, lanes, Some(1));
     let parameters = Model::PARAMETERS.len();
     batch.factors_mut()[parameters..2 * parameters].copy_from_slice(extremes);
@@ -103,12 +103,28 @@ fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64) -> Batch {
 
 fn run(model: Model, extremes: &[f64], seed: u64) -> Result<(), TestCaseError> {
     let model = Arc::new(model);
-    let mut batch = unequal_batch(&model, extremes, seed);
+    let wide = run_in(&model, extremes, seed, LaneChoice::Wide)?;
+    let scalar = run_in(&model, extremes, seed, LaneChoice::Scalar)?;
+    let differs = wide.iter().zip(&scalar).position(|(wide, scalar)| wide != scalar);
+    prop_assert!(differs.is_none(), "number {differs:?} differs between scalar and wide lanes");
+    prop_assert_eq!(wide.len(), scalar.len());
+    Ok(())
+}
+
+/// The bits of all that can be seen after each control step.
+fn run_in(
+    model: &Arc<Model>,
+    extremes: &[f64],
+    seed: u64,
+    lanes: LaneChoice,
+) -> Result<Vec<u64>, TestCaseError> {
+    let mut batch = unequal_batch(model, extremes, seed, lanes);
     let mut draws = Draws::new(seed, 2);
+    let mut bits = vec![];
     for _ in 0..CONTROL_STEPS {
         let before: Vec<_> =
             (0..ENVIRONMENTS).map(|e| (batch.status(e), numbers(&batch, e))).collect();
-        let actions = magworm::observe::action_size(&model) * ENVIRONMENTS;
+        let actions = magworm::observe::action_size(model) * ENVIRONMENTS;
         let actions: Vec<f64> = (0..actions).map(|_| draws.uniform(-1.0, 1.0)).collect();
         let written = step(&mut batch, &actions);
         check(&batch, &written)?;
@@ -118,12 +134,13 @@ fn run(model: Model, extremes: &[f64], seed: u64) -> Result<(), TestCaseError> {
                 prop_assert_eq!(written.progress_m[environment], 0.0);
                 prop_assert_eq!(numbers(&batch, environment), numbers_before);
             }
+            bits.extend(numbers(&batch, environment).into_iter().map(f64::to_bits));
         }
     }
     (0..ENVIRONMENTS).for_each(|environment| batch.reset(environment, seed, 1, None));
     prop_assert!((0..ENVIRONMENTS).all(|e| batch.status(e) == Status::Running));
     batch.advance(1);
-    Ok(())
+    Ok(bits)
 }
 
 /// Few solver steps per control step, whatever the scene asks for: the time goes into more scenes.
