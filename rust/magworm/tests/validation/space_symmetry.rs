@@ -110,9 +110,12 @@ fn way(nodes: &[Vec<Vector3<f64>>]) -> f64 {
 /// Instants of a run: every 10 ms.
 const INSTANTS: usize = 120;
 
+/// Fields of a scene and their values in TOML.
+type Edits = &'static [(&'static str, &'static str)];
+
 /// Motions and laws, edits of the laws, and how far rounding may drive the runs apart [m].
-fn runs() -> [(&'static str, Path, &'static [(&'static str, &'static str)], f64); 4] {
-    let others = &[("solver.magnet_model", "'dipole'"), ("solver.curvature", "'tangent'")];
+fn runs() -> [(&'static str, Path, Edits, f64); 4] {
+    let others: Edits = &[("solver.magnet_model", "'dipole'"), ("solver.curvature", "'tangent'")];
     [
         ("pass", Path::pass(), &[], 1e-9),
         ("pass, dipoles, κ = 2 tan(φ/2)", Path::pass(), others, 1e-9),

@@ -24,6 +24,8 @@ struct Setup {
     /// x, y, z [m] and yaw [rad].
     stage: [f64; 4],
     field: [f64; 3],
+    /// Components of the drive's wrench that act.
+    terms: &'static str,
 }
 
 impl Setup {
@@ -40,6 +42,7 @@ impl Setup {
             arrangement: "{ kind = 'single' }",
             stage: [0.0; 4],
             field: [0.0; 3],
+            terms: "{}",
         }
     }
 
@@ -87,6 +90,7 @@ impl Setup {
                 ("magnet", &magnet),
                 ("drive", &drive),
                 ("field", if self.field == [0.0; 3] { "" } else { &field }),
+                ("magnetic_terms", self.terms),
                 ("solver.step_s", "1e-4"),
                 ("control.step_s", "1e-4"),
                 ("solver.magnet_model", self.model),
@@ -226,10 +230,13 @@ fn free_error(k: usize, offset: Vector3<f64>, orientation: UnitQuaternion<f64>) 
     difference(&found, &exact, offset.norm())
 }
 
-/// Drives of dipoles against Yung's formula, magnet by magnet: (offset along x at yaw 0, polarity).
+/// Magnets of a drive: offset along x at yaw 0 [m], and polarity.
+type Magnets = &'static [(f64, f64)];
+
+/// Drives of dipoles against Yung's formula, magnet by magnet.
 fn dipole_error(
     arrangement: &'static str,
-    magnets: &[(f64, f64)],
+    magnets: Magnets,
     (k, offset, orientation): (usize, Vector3<f64>, UnitQuaternion<f64>),
 ) -> f64 {
     let setup = Setup { stage: stage(k), arrangement, ..Setup::usual("'dipole'", 1) };
@@ -309,7 +316,7 @@ fn validates_the_wrench_in_a_step_in_space() {
             poses([0.12, 0.022, 0.04]).map(|pose| planar_error(pose, order)).collect();
         case.spread(format!("planar step, order {order} of both"), "relative", &errors, band);
     }
-    let arrangements: [(&str, &str, &[(f64, f64)]); 3] = [
+    let arrangements: [(&str, &str, Magnets); 3] = [
         ("one dipole", "{ kind = 'single' }", &[(0.0, 1.0)]),
         (
             "a pair of opposed dipoles",
@@ -334,4 +341,29 @@ fn validates_the_wrench_in_a_step_in_space() {
     case.spread("torque of a uniform field", "of |m| |B|", &torque, 1e-13);
     case.spread("force of a uniform field", "of |m| |B| over the length", &force, 0.0);
     case.finish();
+}
+
+#[test]
+fn terms_that_are_switched_off_do_not_act_in_space() {
+    let (k, offset, orientation) = spatial_poses().last().expect("a pose");
+    let terms = [
+        ("{ horizontal_force = false }", [0.0, 1.0, 0.0], 1.0),
+        ("{ vertical_force = false }", [1.0, 0.0, 1.0], 1.0),
+        ("{ torque = false }", [1.0, 1.0, 1.0], 0.0),
+    ];
+    let acts = |terms: &'static str| {
+        let setup = Setup { stage: stage(k), terms, ..Setup::usual("'cuboid'", 2) };
+        let [x, y, z, yaw] = setup.stage;
+        let turn = yawed(yaw);
+        let axes = (turn * orientation).to_rotation_matrix().into_inner();
+        setup.acts(Vector3::new(x, y, z) + turn * offset, axes)
+    };
+    let all = acts("{}");
+    for (switched, force, torque) in terms {
+        let exact = Wrench {
+            force_n: all.force_n.component_mul(&Vector3::from(force)),
+            torque_n_m: all.torque_n_m * torque,
+        };
+        assert!(difference(&acts(switched), &exact, offset.norm()) < 1e-12, "{switched}");
+    }
 }
