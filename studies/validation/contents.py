@@ -69,6 +69,16 @@ SECTIONS = (
         },
     ),
     Section(
+        "In space",
+        "The same mechanics with `dimensions = 3`: bending about two axes, twist, magnets that turn about "
+        "any axis, friction in any direction along the ground.",
+        {
+            "space_bending_as_in_the_plane": "the planar kernel",
+            "space_twist_of_a_rod": "closed form",
+            "space_helix": "closed form",
+        },
+    ),
+    Section(
         "Magnets",
         "Cuboids of unit permeability and uniform, rigid magnetisation.",
         {

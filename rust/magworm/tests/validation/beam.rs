@@ -51,7 +51,7 @@ fn shoot(slope: f64, loads: Loads, seen: impl FnMut([f64; 4])) -> [f64; 4] {
 }
 
 /// Runge–Kutta 4 from 0 to 1 with 4000 steps; every fortieth goes to `seen`.
-fn runge_kutta<const N: usize>(
+pub fn runge_kutta<const N: usize>(
     start: [f64; N],
     rate: impl Fn(f64, [f64; N]) -> [f64; N],
     mut seen: impl FnMut([f64; N]),

@@ -5,6 +5,7 @@
 
 mod beam;
 mod report;
+mod space_world;
 mod world;
 
 mod contact_block;
@@ -23,9 +24,12 @@ mod magnet_field;
 mod magnet_symmetry;
 mod magnet_wrench;
 mod odd_bodies;
+mod space_bending;
 mod space_crawl;
 mod space_symmetry;
 mod space_wrench;
+mod space_helix;
+mod space_twist;
 mod statics;
 mod statics_buckling;
 mod statics_magnet;
