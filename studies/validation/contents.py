@@ -76,6 +76,7 @@ SECTIONS = (
             "space_bending_as_in_the_plane": "the planar kernel",
             "space_twist_of_a_rod": "closed form",
             "space_helix": "closed form",
+            "space_buckling": "published critical loads",
         },
     ),
     Section(

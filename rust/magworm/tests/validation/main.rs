@@ -25,6 +25,7 @@ mod magnet_symmetry;
 mod magnet_wrench;
 mod odd_bodies;
 mod space_bending;
+mod space_buckling;
 mod space_crawl;
 mod space_symmetry;
 mod space_wrench;
