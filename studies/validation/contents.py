@@ -77,6 +77,8 @@ SECTIONS = (
             "space_twist_of_a_rod": "closed form",
             "space_helix": "closed form",
             "space_buckling": "published critical loads",
+            "space_momentum_in_free_flight": "conservation law",
+            "space_tumbling_of_a_magnet": "Euler's equations, solved in the test",
         },
     ),
     Section(
