@@ -81,6 +81,9 @@ SECTIONS = (
             "space_tumbling_of_a_magnet": "Euler's equations, solved in the test",
             "space_frames_do_not_drift": "frames integrated in the test",
             "space_twist_of_many_turns": "closed form",
+            "space_stopping_distance": "closed form",
+            "space_friction_angle": "closed form",
+            "space_spinning_block": "closed form",
         },
     ),
     Section(

@@ -33,6 +33,7 @@ mod space_flight;
 mod space_frames;
 mod space_helix;
 mod space_pendulum;
+mod space_slide;
 mod space_tumbling;
 mod space_twist;
 mod statics;
