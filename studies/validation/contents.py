@@ -84,6 +84,7 @@ SECTIONS = (
             "space_stopping_distance": "closed form",
             "space_friction_angle": "closed form",
             "space_spinning_block": "closed form",
+            "space_derivatives": "finite differences",
         },
     ),
     Section(

@@ -29,6 +29,7 @@ mod space_buckling;
 mod space_crawl;
 mod space_symmetry;
 mod space_wrench;
+mod space_derivatives;
 mod space_flight;
 mod space_frames;
 mod space_helix;
