@@ -47,10 +47,14 @@ step_s = 1.0
 episode_s = 10.0
 "#;
 
+/// Name, scene and edits of a body.
+type Body = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
 /// Bodies that slide: the rigid foot, and a rod of eight soft elements.
-fn bodies() -> [(&'static str, &'static str, Vec<(&'static str, &'static str)>); 2] {
-    let rod = vec![("dimensions", "3"), ("ground.incline_deg", "0.0"), ("control.step_s", "1.0")];
-    [("foot", BLOCK, vec![]), ("rod", "incline-block", rod)]
+fn bodies() -> [Body; 2] {
+    const ROD: [(&str, &str); 3] =
+        [("dimensions", "3"), ("ground.incline_deg", "0.0"), ("control.step_s", "1.0")];
+    [("foot", BLOCK, &[]), ("rod", "incline-block", &ROD)]
 }
 
 /// Where a body thrown at 0.7 m/s along `heading` comes to rest from its start.
@@ -83,7 +87,7 @@ fn validates_space_stopping_distance() {
         let (mut along, mut aside) = (Vec::new(), Vec::new());
         for k in 0..8 {
             let heading = f64::from(10 + 45 * k).to_radians();
-            let went = thrown(base, &edits, heading);
+            let went = thrown(base, edits, heading);
             let (sin, cos) = heading.sin_cos();
             along.push(went.x * cos + went.z * sin);
             aside.push((went.z * cos - went.x * sin) / exact);
