@@ -78,6 +78,7 @@ SECTIONS = (
             "space_helix": "closed form",
             "space_buckling": "published critical loads",
             "space_momentum_in_free_flight": "conservation law",
+            "space_energy": "conservation law",
             "space_tumbling_of_a_magnet": "Euler's equations, solved in the test",
             "space_frames_do_not_drift": "frames integrated in the test",
             "space_twist_of_many_turns": "closed form",

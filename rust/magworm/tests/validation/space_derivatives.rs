@@ -131,6 +131,12 @@ impl Shape {
     }
 }
 
+/// Elastic energy of a world as it stands [J].
+pub fn elastic_energy(world: &World) -> f64 {
+    let strains = Shape::of(world).strains(world);
+    strains.iter().map(|s| 0.5 * s.stiffness * s.value * s.value).sum()
+}
+
 /// Central difference over every unknown of numbers of a shape.
 fn differences(world: &World, numbers: impl Fn(&Shape) -> Vec<f64>) -> Vec<DVector<f64>> {
     let (shape, step) = (Shape::of(world), 1e-7);

@@ -13,7 +13,7 @@ const MAGNETS: [(&str, &str); 3] = [
 ];
 
 /// A rod whose nodes are off by up to a tenth of an element and whose elements are rolled, flying and tumbling.
-fn flying(integrator: &str, step: &str, damping: &str) -> World {
+pub fn flying(integrator: &str, step: &str, damping: &str) -> World {
     let edits = [
         ("solver.integrator", integrator),
         ("solver.step_s", step),

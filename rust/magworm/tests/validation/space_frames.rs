@@ -4,7 +4,8 @@ use crate::report::Case;
 use crate::space_world::Vector;
 use crate::world::{ROD, World};
 
-const WRITHING: [(&str, &str); 9] = [
+/// A clamped rod that nothing damps.
+pub const WRITHING: [(&str, &str); 9] = [
     ("dimensions", "3"),
     ("gravity_m_s2", "9.81"),
     ("body.clamp", "'head'"),
@@ -27,6 +28,14 @@ fn spun(a: Vector, axis: Vector, angle: f64) -> Vector {
     a * angle.cos() + axis.cross(&a) * angle.sin() + axis * (axis.dot(&a) * (1.0 - angle.cos()))
 }
 
+/// Sets a whirl of the tip and a spin about the axis.
+pub fn whirl(world: &mut World) {
+    world.set_flow(
+        |p| Vector::new(0.0, 4.0 * p.x, 6.0 * p.x * (30.0 * p.x).cos()),
+        Vector::x() * 25.0,
+    );
+}
+
 /// 1e5 steps of an undamped clamped rod that whirls and twists: the frames stay orthonormal, and are where parallel
 /// transport of the tangents by Rodrigues' formula and the integral of the twist rates take them; so is the twist.
 #[test]
@@ -44,10 +53,7 @@ fn validates_space_frames_do_not_drift() {
             motion of the nodes and the twist rates, each step a turn by 2 atan(½ θ̇Δt).",
         );
     let mut world = World::new(ROD, &WRITHING);
-    world.set_flow(
-        |p| Vector::new(0.0, 4.0 * p.x, 6.0 * p.x * (30.0 * p.x).cos()),
-        Vector::x() * 25.0,
-    );
+    whirl(&mut world);
     let (dt, twists) = (world.model.step_s, world.model.coordinates.twists.clone());
     let elements = world.last();
     let mut ups: Vec<Vector> = (0..elements).map(|e| world.up(e)).collect();

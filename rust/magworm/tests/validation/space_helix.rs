@@ -1,9 +1,9 @@
 //! A rod that a couple at its tip bends and twists to a helix.
 
-use crate::report::{Axes, Case, Figure, short};
+use crate::report::Case;
 use crate::space_world::Vector;
-use crate::statics::{LENGTH_M, MESHES, RELAXED, Tipped, farthest_from_two};
-use crate::world::{ROD, World, number};
+use crate::statics::{LENGTH_M, MESHES, RELAXED, Refined, Tipped, farthest_from_two};
+use crate::world::{CURVATURES, ROD, World, number};
 use nalgebra::Rotation3;
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ fn frame(couple: Vector, s: f64) -> Rotation3<f64> {
     Rotation3::new(couple * (s / BENDING)) * Rotation3::new(spin)
 }
 
-/// Place at s: the integral of the tangent that turns about M, t = c x̂ + (cos ωs)(x̂ − c …) and so on, by Simpson's rule.
+/// Place at s: the integral of the tangent by Simpson's rule.
 fn place(couple: Vector, s: f64) -> Vector {
     let parts = 200;
     let h = s / f64::from(parts);
@@ -112,18 +112,16 @@ fn validates_space_helix() {
         .scene(ROD, &[&RELAXED[..], &[("dimensions", "3"), ("field", "…")]].concat())
         .note(
             "Square section, so the rod bends alike about all axes; ν = 0.3. A magnet at the tip, \
-            magnetised upwards, in an oblique uniform field B pulls with a pure couple. B = (0.45, −0.55, \
-            0.7) m⁻¹ c EI/L. Places are those of the soft rod's end.",
+            magnetised upwards, in an oblique uniform field B turns it with a pure couple. B points along \
+            (0.45, −0.55, 0.7), c = mBL/EI. Places are those of the soft rod's end.",
         );
     let direction = Vector::new(0.45, -0.55, 0.7).normalize();
-    let mut figure =
-        Figure::new("Helix: error of the end", "elements", "error / L", Axes::LogLog).slope(-2.0);
-    let mut rows = Vec::new();
+    let mut refined = Refined::new("Helix: error of the end", "error / L");
     for c in [1.0, 3.0] {
         let load = direction * c;
         let exact = couple(load);
         let (far, turned) = (place(exact, LENGTH_M), frame(exact, LENGTH_M));
-        for (curvature, law) in crate::world::CURVATURES {
+        let errors = CURVATURES.map(|(curvature, law)| {
             let errors = MESHES.map(|n| {
                 let world = coiled(n, load, curvature);
                 if n == 40 {
@@ -131,29 +129,15 @@ fn validates_space_helix() {
                 }
                 (end(&world) - far).norm() / LENGTH_M
             });
-            case.at_most(
-                format!("end of the rod, c = {c}, 40 elements, {law}"),
-                "L",
-                errors[2],
-                2e-4,
-            );
-            case.inside(
-                format!("order, c = {c}, {law}"),
-                "",
-                farthest_from_two(&errors),
-                1.8..=2.2,
-            );
-            figure.points(
-                format!("c = {c}, {law}"),
-                MESHES.iter().zip(errors).map(|(n, e)| [*n as f64, e]),
-            );
-            let row = [format!("{c}"), law.to_string()];
-            rows.push(row.into_iter().chain(errors.map(short)).collect());
-        }
+            let what = format!("end of the rod, c = {c}, 40 elements, {law}");
+            case.at_most(what, "L", errors[2], 2e-4);
+            let order = farthest_from_two(&errors);
+            case.inside(format!("order, c = {c}, {law}"), "", order, 1.8..=2.2);
+            errors
+        });
+        refined.add(&format!("c = {c}"), &errors);
     }
-    let head = ["c", "curvature", "10 elements", "20", "40", "80"];
-    case.table("Distance of the end from the helix's, over L:", &head, rows);
-    case.figure(figure);
+    refined.report(&mut case, "Distance of the end from the helix's, over L:");
     case.finish();
 }
 

@@ -10,42 +10,25 @@ const DYNAMIC: f64 = 0.6;
 /// Half of the edges of the foot along and across [m].
 const HALF_M: [f64; 2] = [0.007, 0.006];
 
-/// A worm of one foot that is one rigid magnet in rubber, on its four corners.
-const BLOCK: &str = r#"
-dimensions = 3
-gravity_m_s2 = 9.81
-[body]
-kind = "worm"
-magnets = 1
-pitch_m = 0.02
-foot_length_m = 0.014
-foot_thickness_m = 0.007
-bridge_thickness_m = 0.004
-width_m = 0.012
-elements_per_bridge = 4
-elements_per_foot_end = 1
-[material]
-youngs_modulus_pa = 80e3
-density_kg_m3 = 1070
-damping_time_s = 0.002
-[magnet]
-length_m = 0.014
-width_m = 0.01
-height_m = 0.002
-remanence_t = 1.22
-density_kg_m3 = 7500
-[ground]
-static_friction = 0.8
-dynamic_friction = 0.6
-transition_speed_m_s = 1e-3
-adhesion_n = 0.0
-incline_deg = 0.0
-[solver]
-step_s = 0.001
-[control]
-step_s = 1.0
-episode_s = 10.0
-"#;
+/// The robot of one foot that is one rigid magnet in rubber, on its four corners.
+const FOOT: [(&str, &str); 12] = [
+    ("dimensions", "3"),
+    ("drive", ""),
+    ("body.magnets", "1"),
+    ("body.width_m", "0.012"),
+    ("magnet.length_m", "0.014"),
+    ("magnet.width_m", "0.01"),
+    ("ground.static_friction", "0.8"),
+    ("ground.dynamic_friction", "0.6"),
+    ("ground.transition_speed_m_s", "1e-3"),
+    ("ground.adhesion_n", "0.0"),
+    ("solver.step_s", "1e-3"),
+    ("control.step_s", "1.0"),
+];
+
+fn foot(edits: &[(&str, &str)]) -> World {
+    World::new("paper-3", &[&FOOT[..], edits].concat())
+}
 
 /// Name, scene and edits of a body.
 type Body = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
@@ -54,7 +37,7 @@ type Body = (&'static str, &'static str, &'static [(&'static str, &'static str)]
 fn bodies() -> [Body; 2] {
     const ROD: [(&str, &str); 3] =
         [("dimensions", "3"), ("ground.incline_deg", "0.0"), ("control.step_s", "1.0")];
-    [("foot", BLOCK, &[]), ("rod", "incline-block", &ROD)]
+    [("foot", "paper-3", &FOOT), ("rod", "incline-block", &ROD)]
 }
 
 /// Where a body thrown at 0.7 m/s along `heading` comes to rest from its start.
@@ -77,7 +60,7 @@ fn validates_space_stopping_distance() {
     let mut case = Case::new("space_stopping_distance", "Stopping distance in eight directions")
         .equation("v²/(2 μ_d g) − ½ v Δt along v, 0 across it")
         .source("Coulomb; the second term is that of a step that moves with its final velocity")
-        .scene(BLOCK, &[("solver.step_s", "1e-3"), ("material.damping_time_s", "0.02")])
+        .scene("paper-3", &FOOT)
         .note(
             "v = 0.7 m/s at 10°, 55°, … from x. *Foot*: one rigid magnet on four corners; *rod*: eight soft \
             elements on nine points. The last step may stop short by μ_d g Δt².",
@@ -115,7 +98,7 @@ fn leaning(incline_deg: f64, yaw_deg: f64) -> World {
         ("start.yaw_deg", &yaw),
         ("solver.step_s", "2e-3"),
     ];
-    World::new(BLOCK, &edits)
+    foot(&edits)
 }
 
 /// Way of the second second [m], so its mean speed [m/s].
@@ -133,7 +116,7 @@ fn validates_space_friction_angle() {
     let mut case = Case::new("space_friction_angle", "Friction angle of a yawed foot")
         .equation("tan α = μ_s; a = g (sin α − μ_d cos α) beyond")
         .source("Coulomb")
-        .scene(BLOCK, &[("ground.incline_deg", "…"), ("start.yaw_deg", "…")])
+        .scene("paper-3", &[&FOOT[..], &[("ground.incline_deg", "…"), ("start.yaw_deg", "…")]].concat())
         .note(
             "The foot stands on four corners, its length at an angle to the line of fall. Creep and way across \
             in the second second; the acceleration is that of the second second at 45°.",
@@ -166,10 +149,13 @@ fn validates_space_spinning_block() {
     let mut case = Case::new("space_spinning_block", "Foot that spins on its corners")
         .equation("angle = ω² I/(2 μ_d m g r) − ½ ω Δt, r: distance of the corners")
         .source("Coulomb")
-        .scene(BLOCK, &[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")])
+        .scene(
+            "paper-3",
+            &[&FOOT[..], &[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")]].concat(),
+        )
         .note("Spun at ±50 rad/s about the vertical. The centre must stay where it is.");
     for rate in [50.0, -50.0] {
-        let mut world = World::new(BLOCK, &[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")]);
+        let mut world = foot(&[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")]);
         world.run(0.1);
         let (mass, before) = world.centre();
         let start = world.block.robot_pose(&world.model, 0)[2];
