@@ -85,6 +85,7 @@ SECTIONS = (
             "space_stopping_distance": "closed form",
             "space_friction_angle": "closed form",
             "space_spinning_block": "closed form",
+            "space_sliding_and_turning": "ODE solved in the test",
             "space_derivatives": "finite differences",
         },
     ),

@@ -30,6 +30,7 @@ mod space_crawl;
 mod space_symmetry;
 mod space_wrench;
 mod space_derivatives;
+mod space_dumbbell;
 mod space_energy;
 mod space_flight;
 mod space_frames;
