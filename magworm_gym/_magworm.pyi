@@ -45,6 +45,9 @@ class Scene:
     @property
     def name(self) -> str: ...
     @property
+    def dimensions(self) -> int:
+        """2: the plane x-y; 3: space."""
+    @property
     def magnets(self) -> int:
         """Number of body magnets M, removed ones included."""
     @property
@@ -60,7 +63,8 @@ class Scene:
         """Whether the drive follows actions."""
     @property
     def stage_limits(self) -> dict[str, float] | None:
-        """reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2 of a controlled drive."""
+        """reach_m, lowest_m, highest_m, speed_m_s, acceleration_m_s2 of a controlled drive; in space also
+        lateral_reach_m, yaw_reach_deg, yaw_speed_deg_s, yaw_acceleration_deg_s2."""
     @property
     def geometry(self) -> dict[str, Any]:
         """Sizes for drawing: node_thickness_m (K), element_thickness_m (K − 1), magnet_size_m (length,
@@ -118,7 +122,8 @@ class Batch:
         start: NDArray[np.float64] | None = None,
     ) -> None:
         """Resets the environments of mask (N,). Random draws depend on (seed, episode) of the
-        environment alone. start (N, 3): x [m], height [m], angle [rad]; None: the scene's."""
+        environment alone. start (N, 3): x [m], height [m], angle [rad]; in space (N, 5), with z [m], yaw [rad];
+        None: the scene's."""
     def step(
         self, actions: NDArray[np.float64]
     ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:
@@ -134,15 +139,19 @@ class Batch:
     def status_text(code: int) -> str: ...
     def time_s(self) -> NDArray[np.float64]: ...
     def magnet_poses(self) -> NDArray[np.float64]:
-        """(N, M, 3): x [m], y [m], angle [rad] in the world."""
+        """(N, M, 3): x [m], y [m], angle [rad] in the world; in space (N, M, 7): x, y, z [m] and the
+        quaternion w, x, y, z, w ≥ 0, that turns x, y, z into the magnet's tangent, up and side."""
     def magnet_velocities(self) -> NDArray[np.float64]:
-        """(N, M, 3): [m/s], [m/s], [rad/s]."""
+        """(N, M, 3): [m/s], [m/s], [rad/s]; in space (N, M, 6): along and about x, y, z."""
     def node_positions(self) -> NDArray[np.float64]:
-        """(N, K, 2) [m]: the centre line, head first."""
+        """(N, K, 2), in space (N, K, 3) [m]: the centre line, head first."""
     def drive_positions(self) -> NDArray[np.float64]:
-        """(N, D, 2) [m]: centres of the drive magnets."""
+        """(N, D, 2) [m]: centres of the drive magnets; in space (N, D, 4), with z [m] and yaw [rad]."""
     def drive_velocities(self) -> NDArray[np.float64]:
-        """(N, 2) [m/s]."""
+        """(N, 2) [m/s]; in space (N, 4), along x, y, z and of yaw [rad/s]."""
+    def robot_poses(self) -> NDArray[np.float64]:
+        """(N, 3): x, z of the robot's centre [m] and its heading [rad], the yaw of the line from its head
+        to its tail, from -π to π; in the plane z and heading are 0."""
     def counters(self) -> dict[str, int]:
         """Work since construction, counted per block of lanes: steps, solves, factorisations, wrenches."""
     def get_state(self) -> bytes:
@@ -182,6 +191,6 @@ def record_scenes(
     threads: int | None = None,
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], int]]:
     """Runs each scene once from its start pose, all of them side by side. For each: magnet poses
-    (T, M, 3), drive positions (T, D, 2), nodes (T, K, 2; K is 0 where they are not asked for), status
-    at the end. A controlled drive stands still. Raises ValueError for times that are no whole number
-    of steps."""
+    (T, M, 3 or 7), drive positions (T, D, 2 or 4), nodes (T, K, 2 or 3; K is 0 where they are not asked
+    for), each as Batch gives them, status at the end. A controlled drive stands still. Raises ValueError
+    for times that are no whole number of steps."""

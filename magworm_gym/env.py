@@ -118,7 +118,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         """Advances by one control step.
 
         Args:
-            action: (3,), finite; values outside [-1, 1] are clipped.
+            action: (A,), finite; values outside [-1, 1] are clipped.
 
         Returns:
             The observation (O,) float32, the reward [mm], terminated (never), truncated, the info.

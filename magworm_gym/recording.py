@@ -14,14 +14,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Recording:
-    """One robot over time.
+    """One robot over time. Rows of a scene in space are longer, as those of a batch are.
 
     Attributes:
         time_s: Instants (T,) [s], evenly spaced.
-        nodes: Centre line (T, K, 2) [m]; K is 0 where it was not kept.
-        magnet_poses: Body magnets (T, M, 3): [m], [m], [rad].
+        nodes: Centre line (T, K, 2), in space (T, K, 3) [m]; K is 0 where it was not kept.
+        magnet_poses: Body magnets (T, M, 3): [m], [m], [rad]; in space (T, M, 7).
         present: Which body magnets are in place (M,).
-        drive_positions: Drive magnets (T, D, 2) [m].
+        drive_positions: Drive magnets (T, D, 2) [m]; in space (T, D, 4).
         broken: Why the simulation broke down, in words; from then on the robot stands still. None
             where it did not.
     """
@@ -35,12 +35,13 @@ class Recording:
 
     @property
     def centre(self) -> Floats:
-        """Places of the robot's centre, the mean of its magnets' places (T, 2) [m]."""
-        return np.asarray(self.magnet_poses[..., :2].mean(axis=1))
+        """Places of the robot's centre, the mean of its magnets' places (T, 2), in space (T, 3) [m]."""
+        axes = 2 if self.magnet_poses.shape[-1] == 3 else 3
+        return np.asarray(self.magnet_poses[..., :axes].mean(axis=1))
 
     @property
     def progress_m(self) -> Floats:
-        """Way towards the head since the first instant (T,) [m]."""
+        """Way along -x, towards the head of a robot that does not turn, since the first instant (T,) [m]."""
         centre_x = self.centre[:, 0]
         return np.asarray(centre_x[0] - centre_x)
 

@@ -10,6 +10,14 @@ from numpy.typing import NDArray
 START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
 """Fields of the option `start`, each with its largest magnitude: those of a scene."""
 
+START_LIMITS_IN_SPACE = {**START_LIMITS, "z_m": 10.0, "yaw_deg": 360.0}
+"""The same for a scene in space."""
+
+
+def start_limits(dimensions: int) -> dict[str, float]:
+    """Fields of the option `start` in a scene of 2 or 3 dimensions, each with its largest magnitude."""
+    return START_LIMITS if dimensions == 2 else START_LIMITS_IN_SPACE
+
 
 @dataclass(frozen=True)
 class ResetOptions:
@@ -17,7 +25,8 @@ class ResetOptions:
 
     Attributes:
         mask: (N,) environments to reset.
-        start: (N, 3) pose: x [m], height [m], angle [rad]; None for the scene's.
+        start: (N, 3) pose: x [m], height [m], angle [rad]; in space (N, 5), with z [m], yaw [rad];
+            None for the scene's.
         present: (N, M) False where a magnet is taken out; None for the scene's robot.
         factors: Factors (N,) of the scene's value, by name of the parameter.
     """
@@ -29,7 +38,12 @@ class ResetOptions:
 
 
 def read_options(
-    options: Mapping[str, Any] | None, *, num_envs: int, magnets: int, parameter_names: Sequence[str]
+    options: Mapping[str, Any] | None,
+    *,
+    num_envs: int,
+    magnets: int,
+    parameter_names: Sequence[str],
+    dimensions: int = 2,
 ) -> ResetOptions:
     """Reads `options` without changing it.
 
@@ -45,7 +59,7 @@ def read_options(
     parameters = options.get("parameters")
     return ResetOptions(
         mask=np.ones(num_envs, np.bool_) if mask is None else _mask(mask, num_envs),
-        start=None if start is None else _start(start, num_envs),
+        start=None if start is None else _start(start, num_envs, start_limits(dimensions)),
         present=None if removed is None else _present(removed, num_envs, magnets),
         factors={} if parameters is None else _factors(parameters, num_envs, parameter_names),
     )
@@ -85,15 +99,16 @@ def _mask(value: Any, num_envs: int) -> NDArray[np.bool_]:
     return value.copy()
 
 
-def _start(value: Any, num_envs: int) -> NDArray[np.float64]:
-    fields = _mapping('options["start"]', value, tuple(START_LIMITS))
-    start = np.zeros((num_envs, len(START_LIMITS)))
-    for column, (name, limit) in enumerate(START_LIMITS.items()):
+def _start(value: Any, num_envs: int, limits: Mapping[str, float]) -> NDArray[np.float64]:
+    fields = _mapping('options["start"]', value, tuple(limits))
+    start = np.zeros((num_envs, len(limits)))
+    for column, (name, limit) in enumerate(limits.items()):
         field = f'options["start"]["{name}"]'
         start[:, column] = _numbers(field, fields.get(name, 0.0), num_envs)
         if (np.abs(start[:, column]) > limit).any():
             raise ValueError(f"{field} is {fields[name]!r}; allowed: -{limit:g} to {limit:g}")
-    start[:, 2] = np.deg2rad(start[:, 2])
+        if name.endswith("_deg"):
+            start[:, column] = np.deg2rad(start[:, column])
     return start
 
 

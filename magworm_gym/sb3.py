@@ -94,7 +94,7 @@ class MagWormVecEnv(VecEnv):
         return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
-        """Takes the actions (N, 3) for the next :meth:`step_wait`."""
+        """Takes the actions (N, A) for the next :meth:`step_wait`."""
         self._actions = actions
 
     def step_wait(self) -> tuple[Observations, NDArray[np.float32], NDArray[np.bool_], list[Infos]]:

@@ -19,7 +19,7 @@ from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
 from magworm_gym.drawing import Drawing, Frame
 from magworm_gym.infos import Flags, Infos, add, reasons, rows
-from magworm_gym.reset_options import ResetOptions, read_options
+from magworm_gym.reset_options import ResetOptions, read_options, start_limits
 from magworm_gym.scene import load_scene
 from magworm_gym.spaces import box, layout
 
@@ -34,8 +34,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``.
 
-    **Action** (3,), float32 in [-1, 1], clipped: target position of the stage along the robot,
-    its height, its travel speed. **Observation**: see :attr:`observation_layout`; units and bounds
+    **Action** (A,), float32 in [-1, 1], clipped: target position of the stage along the robot, its
+    height, its travel speed; in space also its place to the robot's side and, where the stage has it,
+    its yaw: see ``batch.action_specification``. **Observation**: see :attr:`observation_layout`; units and bounds
     stand in ``batch.observation_specification``. **Reward**: forward progress (towards the head)
     within the control step [mm]; 0 in the step in which a worm breaks. **Terminated**: never.
     **Truncated**: at the time limit, or where the simulation of a worm breaks numerically.
@@ -52,7 +53,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     **Options** of a reset hold until the next call of :meth:`reset` for the same environment,
     through autoresets; a scalar is for all environments, an array (N,) one value for each:
 
-    - ``"start"``: ``{"x_m", "height_m", "angle_deg"}``, pose of the straight body; parts left out are 0.
+    - ``"start"``: ``{"x_m", "height_m", "angle_deg"}``, in space also ``"z_m"`` and ``"yaw_deg"``: pose of
+      the straight body; parts left out are 0.
     - ``"removed"``: magnets taken out, counted from 0 at the head, in place of the scene's own
       ``removed``: one sequence for all, or N sequences.
     - ``"parameters"``: factors of the scene's values by name, see ``batch.parameter_names``.
@@ -120,7 +122,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self._episodes = np.full(self.num_envs, -1, np.int64)  # -1: never reset
         self._elapsed_steps = np.zeros(self.num_envs, np.int64)
         self._ended = np.zeros(self.num_envs, np.bool_)
-        self._starts = np.full((self.num_envs, 3), np.nan)  # NaN: the scene's
+        self._starts = np.full((self.num_envs, len(start_limits(scene.dimensions))), np.nan)  # NaN: the scene's
 
     @property
     def batch(self) -> Batch:
@@ -163,11 +165,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ValueError: A seed or an option is not allowed; nothing is changed then.
         """
         seeds = seeds_of(seed, self.num_envs)
+        scene = self.scene
         request = read_options(
             options,
             num_envs=self.num_envs,
-            magnets=self.scene.magnets,
+            magnets=scene.magnets,
             parameter_names=self._batch.parameter_names,
+            dimensions=scene.dimensions,
         )
         self._equip(request)
         if isinstance(seed, (int, np.integer)):
@@ -183,7 +187,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         """Advances every environment by one control step.
 
         Args:
-            actions: (N, 3), finite; values outside [-1, 1] are clipped. With ``NEXT_STEP`` the rows of
+            actions: (N, A), finite; values outside [-1, 1] are clipped. With ``NEXT_STEP`` the rows of
                 environments that reset in this step are ignored.
 
         Returns:

@@ -91,7 +91,7 @@ impl Batch {
 
     #[getter]
     fn action_specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        specifications(py, observe::action())
+        specifications(py, observe::action(self.batch.model()))
     }
 
     #[getter]
@@ -147,12 +147,15 @@ impl Batch {
         let mask = read("mask", &mask, &[count])?;
         let seeds = read("seeds", &seeds, &[count])?;
         let episodes = read("episodes", &episodes, &[count])?;
-        let start = start.map(|array| read("start", &array, &[count, 3])).transpose()?;
-        check_start(start.as_deref(), &mask)?;
+        let columns = self.start_limits().len();
+        let start = start.map(|array| read("start", &array, &[count, columns])).transpose()?;
+        check_start(start.as_deref(), &mask, self.start_limits())?;
         for environment in (0..count).filter(|&k| mask[k]) {
             let pose = start.as_deref().map(|rows| {
-                let row = &rows[3 * environment..][..3];
-                StartPose { x_m: row[0], height_m: row[1], angle_rad: row[2] }
+                let row = &rows[columns * environment..][..columns];
+                let (z_m, yaw_rad) =
+                    if let [.., z, yaw] = row[3..] { (z, yaw) } else { (0.0, 0.0) };
+                StartPose { x_m: row[0], height_m: row[1], angle_rad: row[2], z_m, yaw_rad }
             });
             self.batch.reset(environment, seeds[environment], episodes[environment], pose);
         }
@@ -165,9 +168,10 @@ impl Batch {
         actions: PyReadonlyArrayDyn<'py, f64>,
     ) -> PyResult<StepArrays<'py>> {
         let count = self.batch.count();
-        let actions = read("actions", &actions, &[count, observe::ACTION_SIZE])?;
+        let size = observe::action_size(self.batch.model());
+        let actions = read("actions", &actions, &[count, size])?;
         if let Some(k) = actions.iter().position(|a| !a.is_finite()) {
-            let (environment, component) = (k / observe::ACTION_SIZE, k % observe::ACTION_SIZE);
+            let (environment, component) = (k / size, k % size);
             return Err(value_error(format!(
                 "action of environment {environment}, component {component}, is {}; allowed: finite numbers, clipped to [-1, 1]",
                 actions[k]
@@ -229,31 +233,34 @@ impl Batch {
     }
 
     fn magnet_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        self.per_magnet(py, |view, magnet| view.magnet_pose(magnet))
+        let magnets = self.batch.model().magnets();
+        self.per_item(py, magnets, [3, 7], |view, k| view.magnet_pose(k))
     }
 
     fn magnet_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        self.per_magnet(py, |view, magnet| view.magnet_velocity(magnet))
+        let magnets = self.batch.model().magnets();
+        self.per_item(py, magnets, [3, 6], |view, k| view.magnet_velocity(k))
     }
 
     fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let nodes = self.batch.model().nodes();
-        let rows = self.gather(|view, out| (0..nodes).for_each(|n| out.extend(view.node_m(n))));
-        rows.into_pyarray(py).reshape([self.batch.count(), nodes, 2])
+        self.per_item(py, nodes, [2, 3], |view, k| view.node_m(k))
     }
 
     fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let drive = self.batch.model().program.drive.as_ref();
         let magnets = drive.map_or(0, |d| d.layout.offset_m.len());
-        let rows = self.gather(|view, out| {
-            (0..magnets).filter_map(|k| view.drive_m(k)).for_each(|place| out.extend(place));
-        });
-        rows.into_pyarray(py).reshape([self.batch.count(), magnets, 2])
+        self.per_item(py, magnets, [2, 4], |view, k| view.drive_place(k).unwrap_or_default())
     }
 
     fn drive_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.gather(|view, out| out.extend(view.drive_m_s()));
-        rows.into_pyarray(py).reshape([self.batch.count(), 2])
+        let rows = self.gather(|view, out| out.extend(view.drive_velocity()));
+        rows.into_pyarray(py).reshape([self.batch.count(), self.of_dimensions([2, 4])])
+    }
+
+    fn robot_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = self.gather(|view, out| out.extend(view.robot_pose()));
+        rows.into_pyarray(py).reshape([self.batch.count(), 3])
     }
 
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -299,16 +306,39 @@ impl Batch {
         out
     }
 
-    fn per_magnet<'py>(
+    /// What a scene in the plane and one in space have.
+    fn of_dimensions<T>(&self, [plane, space]: [T; 2]) -> T {
+        if self.batch.model().dimensions() == 2 { plane } else { space }
+    }
+
+    /// Numbers of each of `count` things of an environment; `width` in the plane and in space.
+    fn per_item<'py>(
         &self,
         py: Python<'py>,
-        look: impl Fn(&View<'_>, usize) -> [f64; 3],
+        count: usize,
+        width: [usize; 2],
+        look: impl Fn(&View<'_>, usize) -> Vec<f64>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let magnets = self.batch.model().magnets();
-        let rows = self.gather(|view, out| (0..magnets).for_each(|j| out.extend(look(&view, j))));
-        rows.into_pyarray(py).reshape([self.batch.count(), magnets, 3])
+        let rows = self.gather(|view, out| (0..count).for_each(|k| out.extend(look(&view, k))));
+        let shape = [self.batch.count(), count, self.of_dimensions(width)];
+        rows.into_pyarray(py).reshape(shape)
+    }
+
+    /// Columns of a start pose: name, greatest magnitude, unit.
+    fn start_limits(&self) -> &'static [StartLimit] {
+        self.of_dimensions([&START[..3], &START])
     }
 }
+
+type StartLimit = (&'static str, f64, &'static str);
+
+const START: [StartLimit; 5] = [
+    ("x", 1e3, "m"),
+    ("height", 10.0, "m"),
+    ("angle", 1e3, "rad"),
+    ("z", 1e3, "m"),
+    ("yaw", 1e3, "rad"),
+];
 
 /// Makes a batch again from what `Batch.__reduce__` kept.
 #[pyfunction]
@@ -345,12 +375,11 @@ fn factor_allowed(factor: f64, signed: bool) -> bool {
 }
 
 /// Start poses of the masked environments must be finite and near.
-fn check_start(start: Option<&[f64]>, mask: &[bool]) -> PyResult<()> {
-    let rows = start.unwrap_or_default().chunks(3).enumerate().filter(|(k, _)| mask[*k]);
+fn check_start(start: Option<&[f64]>, mask: &[bool], limits: &[StartLimit]) -> PyResult<()> {
+    let rows = start.unwrap_or_default().chunks(limits.len()).enumerate().filter(|(k, _)| mask[*k]);
     for (environment, row) in rows {
-        let limits = [("x", 1e3, "m"), ("height", 10.0, "m"), ("angle", 1e3, "rad")];
         for (value, (name, most, unit)) in row.iter().zip(limits) {
-            if value.is_nan() || value.abs() > most {
+            if value.is_nan() || value.abs() > *most {
                 return Err(value_error(format!(
                     "start {name} of environment {environment} is {value} {unit}; allowed: -{most} to {most} {unit}"
                 )));

@@ -67,15 +67,11 @@ fn arrays<'py>(
     recording: Recording,
 ) -> PyResult<Arrays<'py>> {
     let instants = watch.intervals as usize + 1;
-    let Recording { magnet_poses, drive_m, node_m, status } = recording;
-    let (drives, nodes) = (drive_m.len() / instants, node_m.len() / instants);
-    let poses = magnet_poses.into_flattened().into_pyarray(py);
-    let drive = drive_m.into_flattened().into_pyarray(py);
-    let node = node_m.into_flattened().into_pyarray(py);
-    Ok((
-        poses.reshape([instants, model.magnets(), 3])?,
-        drive.reshape([instants, drives, 2])?,
-        node.reshape([instants, nodes, 2])?,
-        status as u8,
-    ))
+    let Recording { magnet_poses, drive, node_m, status } = recording;
+    let (pose, place, axes) = if model.dimensions() == 2 { (3, 2, 2) } else { (7, 4, 3) };
+    let shaped = |numbers: Vec<f64>, width: usize| {
+        let each = numbers.len() / (instants * width);
+        numbers.into_pyarray(py).reshape([instants, each, width])
+    };
+    Ok((shaped(magnet_poses, pose)?, shaped(drive, place)?, shaped(node_m, axes)?, status as u8))
 }

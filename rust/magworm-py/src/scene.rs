@@ -62,6 +62,11 @@ impl Scene {
     }
 
     #[getter]
+    fn dimensions(&self) -> usize {
+        self.model.dimensions()
+    }
+
+    #[getter]
     fn magnets(&self) -> usize {
         self.model.magnets()
     }
@@ -104,6 +109,12 @@ impl Scene {
         dict.set_item("highest_m", limits.highest_m)?;
         dict.set_item("speed_m_s", limits.speed_m_s)?;
         dict.set_item("acceleration_m_s2", limits.acceleration_m_s2)?;
+        if self.model.dimensions() == 3 {
+            dict.set_item("lateral_reach_m", limits.lateral_reach_m)?;
+            dict.set_item("yaw_reach_deg", limits.yaw_reach_deg)?;
+            dict.set_item("yaw_speed_deg_s", limits.yaw_speed_deg_s)?;
+            dict.set_item("yaw_acceleration_deg_s2", limits.yaw_acceleration_deg_s2)?;
+        }
         Ok(Some(dict))
     }
 
