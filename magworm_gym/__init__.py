@@ -1,6 +1,7 @@
 """MagWorm: a batched simulator of soft worms that a moving magnet drives, as Gymnasium environments.
 
-Importing this package needs numpy and Gymnasium only, and registers ``MagWorm/Crawl-v0``:
+Importing this package needs numpy and Gymnasium only, and registers ``MagWorm/Crawl-v0``,
+``MagWorm/Turn-v0`` and ``MagWorm/Reach-v0``:
 
 >>> import gymnasium, magworm_gym
 >>> worms = gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=64)
@@ -12,13 +13,15 @@ The Stable-Baselines3 adapter is :mod:`magworm_gym.sb3`, the checker for vector 
 from magworm_gym._magworm import PRESETS, Batch, Scene, SceneError, __version__
 from magworm_gym.env import MagWormEnv
 from magworm_gym.recording import Recording, record_scenes
-from magworm_gym.registration import CRAWL_ID, register_environments
+from magworm_gym.registration import CRAWL_ID, REACH_ID, TURN_ID, register_environments
 from magworm_gym.scene import load_scene
 from magworm_gym.vector_env import MagWormVectorEnv
 
 __all__ = [
     "CRAWL_ID",
     "PRESETS",
+    "REACH_ID",
+    "TURN_ID",
     "Batch",
     "MagWormEnv",
     "MagWormVectorEnv",

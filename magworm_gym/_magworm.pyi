@@ -122,8 +122,8 @@ class Batch:
         start: NDArray[np.float64] | None = None,
     ) -> None:
         """Resets the environments of mask (N,). Random draws depend on (seed, episode) of the
-        environment alone. start (N, 3): x [m], height [m], angle [rad]; in space (N, 5), with z [m], yaw [rad];
-        None: the scene's."""
+        environment alone. start (N, 3): x [m], height [m], angle [rad]; in space (N, 5), with z [m] and
+        yaw [rad]; None: the scene's."""
     def step(
         self, actions: NDArray[np.float64]
     ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:

@@ -19,22 +19,23 @@ from magworm_gym.vector_env import RENDER_MODES, MagWormVectorEnv, Observations
 
 
 class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
-    """One worm that crawls above a driven magnet.
+    """One worm above a driven magnet.
 
-    Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``. Actions, observations, rewards,
-    seeds and options are those of :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the
+    Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``, or ``Turn-v0``, ``Reach-v0``. Actions,
+    observations, rewards, seeds and options are those of :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the
     leading axis; infos hold plain numbers and strings, without masks.
 
     The time limit is the scene's. ``gymnasium.make(..., max_episode_steps=…)`` adds Gymnasium's own
     limit on top: the sooner of the two ends an episode.
 
     Args:
-        scene: Preset, path of a TOML file, or scene; its drive must follow actions.
+        scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the task's.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None; "rgb_array": :meth:`render` returns a frame; "human": a window follows
             each reset and step.
         lanes: "scalar", or "wide" for SIMD, which cannot help one environment; equal bit for bit.
         threads: Most threads to use: one environment needs no more than 1.
+        task: "crawl", "turn" or "reach".
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -45,11 +46,12 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
 
     def __init__(
         self,
-        scene: str | PathLike[str] | Scene = "paper-3",
+        scene: str | PathLike[str] | Scene | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         lanes: str = "scalar",
         threads: int | None = 1,
+        task: str = "crawl",
     ) -> None:
         self._worms = MagWormVectorEnv(
             num_envs=1,
@@ -59,6 +61,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
             autoreset_mode=AutoresetMode.DISABLED,
             lanes=lanes,
             threads=threads,
+            task=task,
         )
         self.render_mode = render_mode
         self.metadata = {key: self._worms.metadata[key] for key in ("render_modes", "render_fps")}
@@ -121,7 +124,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
             action: (A,), finite; values outside [-1, 1] are clipped.
 
         Returns:
-            The observation (O,) float32, the reward [mm], terminated (never), truncated, the info.
+            The observation (O,) float32, the reward, terminated, truncated, the info.
 
         Raises:
             ValueError: A wrong shape or a value that is not finite; the state is untouched then.

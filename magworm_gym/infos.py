@@ -12,10 +12,11 @@ Infos = dict[str, Any]
 
 
 def add(infos: Infos, key: str, values: NDArray[Any], mask: Flags) -> None:
-    """Adds values (N,) where mask (N,) is set; a key that holds for no environment is left out."""
+    """Adds values (N, …) where mask (N,) is set; a key that holds for no environment is left out."""
     if mask.any():
         nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
-        infos[key] = np.where(mask, values, infos.get(key, nothing))
+        chosen = mask.reshape(-1, *(1,) * (values.ndim - 1))
+        infos[key] = np.where(chosen, values, infos.get(key, nothing))
         infos[f"_{key}"] = mask | infos.get(f"_{key}", False)
 
 

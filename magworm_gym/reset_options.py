@@ -1,11 +1,16 @@
 """Options of a reset, read and checked before anything changes."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from magworm_gym.tasks import GoalOption
 
 START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
 """Fields of the option `start`, each with its largest magnitude: those of a scene."""
@@ -29,12 +34,14 @@ class ResetOptions:
             None for the scene's.
         present: (N, M) False where a magnet is taken out; None for the scene's robot.
         factors: Factors (N,) of the scene's value, by name of the parameter.
+        goal: (N, goal) goals of the task; None to draw them.
     """
 
     mask: NDArray[np.bool_]
     start: NDArray[np.float64] | None
     present: NDArray[np.bool_] | None
     factors: dict[str, NDArray[np.float64]]
+    goal: NDArray[np.float64] | None
 
 
 def read_options(
@@ -44,15 +51,18 @@ def read_options(
     magnets: int,
     parameter_names: Sequence[str],
     dimensions: int = 2,
+    goal_option: GoalOption | None = None,
 ) -> ResetOptions:
     """Reads `options` without changing it.
 
     Raises:
         ValueError: Names the field, its value and what is allowed.
     """
-    options = _mapping(
-        "options", {} if options is None else options, ("start", "removed", "parameters", "reset_mask")
-    )
+    names = ["start", "removed", "parameters", "reset_mask"]
+    if goal_option is not None:
+        names.append(goal_option.name)
+    options = _mapping("options", {} if options is None else options, names)
+    goal = options.get(goal_option.name) if goal_option is not None else None
     mask = options.get("reset_mask")
     start = options.get("start")
     removed = options.get("removed")
@@ -62,6 +72,7 @@ def read_options(
         start=None if start is None else _start(start, num_envs, start_limits(dimensions)),
         present=None if removed is None else _present(removed, num_envs, magnets),
         factors={} if parameters is None else _factors(parameters, num_envs, parameter_names),
+        goal=None if goal_option is None or goal is None else _goal(goal, num_envs, goal_option),
     )
 
 
@@ -74,17 +85,25 @@ def _mapping(field: str, value: Any, allowed: Sequence[str]) -> Mapping[str, Any
     return value
 
 
-def _numbers(field: str, value: Any, num_envs: int) -> NDArray[np.float64]:
-    """One finite number per environment, from a scalar or an array (N,)."""
+def _numbers(field: str, value: Any, num_envs: int, each: tuple[int, ...] = ()) -> NDArray[np.float64]:
+    """Finite numbers of shape `each` per environment, from one of them or an array (N, *each)."""
     try:
         numbers = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         numbers = np.full(1, np.nan)
-    if numbers.shape not in ((), (num_envs,)) or not np.isfinite(numbers).all():
-        raise ValueError(
-            f"{field} is {value!r}; it must be a finite number or an array of shape ({num_envs},) of them"
-        )
-    return np.broadcast_to(numbers, num_envs)
+    shape = (num_envs, *each)
+    if numbers.shape not in (each, shape) or not np.isfinite(numbers).all():
+        one = f"an array of shape {each} of finite numbers" if each else "a finite number"
+        raise ValueError(f"{field} is {value!r}; it must be {one} or an array of shape {shape} of them")
+    return np.broadcast_to(numbers, shape)
+
+
+def _goal(value: Any, num_envs: int, option: GoalOption) -> NDArray[np.float64]:
+    field = f'options["{option.name}"]'
+    goals = _numbers(field, value, num_envs, option.shape)
+    if (np.abs(goals) > option.limit).any():
+        raise ValueError(f"{field} is {value!r}; allowed: -{option.limit:g} to {option.limit:g}")
+    return goals.reshape(num_envs, option.size)
 
 
 def _mask(value: Any, num_envs: int) -> NDArray[np.bool_]:

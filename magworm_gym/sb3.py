@@ -32,7 +32,7 @@ class MagWormVecEnv(VecEnv):
     It behaves as ``DummyVecEnv`` of monitored single environments does, with one difference that
     makes it quick: the info of an environment whose episode goes on is an empty dictionary. Where
     an episode ends, the info holds ``terminal_observation``, ``TimeLimit.truncated``, ``episode``
-    (``r`` return [mm], ``l`` length in control steps, ``t`` seconds since construction) and what
+    (``r`` return, ``l`` length in control steps, ``t`` seconds since construction) and what
     :class:`~magworm_gym.vector_env.MagWormVectorEnv` says about its last step (``broken``, …).
 
     The environments live in one batch: attributes and methods are those of the whole batch
@@ -40,12 +40,13 @@ class MagWormVecEnv(VecEnv):
 
     Args:
         num_envs: Number of environments N.
-        scene: Preset, path of a TOML file, or scene.
+        scene: Preset, path of a TOML file, or scene; None takes the task's.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None, "rgb_array" or "human".
         render_envs: Environments to draw.
         lanes: "wide" or "scalar"; equal bit for bit.
         threads: Most threads to use; None for all cores.
+        task: "crawl", "turn" or "reach".
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -55,12 +56,13 @@ class MagWormVecEnv(VecEnv):
     def __init__(
         self,
         num_envs: int = 1,
-        scene: str | PathLike[str] | Scene = "paper-3",
+        scene: str | PathLike[str] | Scene | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         render_envs: Sequence[int] = (0,),
         lanes: str = "wide",
         threads: int | None = None,
+        task: str = "crawl",
     ) -> None:
         self.worms = MagWormVectorEnv(
             num_envs=num_envs,
@@ -71,6 +73,7 @@ class MagWormVecEnv(VecEnv):
             render_envs=render_envs,
             lanes=lanes,
             threads=threads,
+            task=task,
         )
         super().__init__(num_envs, self.worms.single_observation_space, self.worms.single_action_space)
         self.metadata = self.worms.metadata
@@ -102,7 +105,7 @@ class MagWormVecEnv(VecEnv):
 
         Returns:
             Fresh arrays: observations (N, O) float32, of the new episode where one ended, rewards
-            (N,) [mm] float32, dones (N,) bool; and N infos.
+            (N,) float32, dones (N,) bool; and N infos.
         """
         observations, rewards, terminated, truncated, batch_infos = self.worms.step(self._actions)
         dones = terminated | truncated

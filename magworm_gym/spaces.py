@@ -1,6 +1,8 @@
 """Spaces of Gymnasium, derived from what the simulator declares about its rows."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -9,7 +11,22 @@ from numpy.typing import NDArray
 from magworm_gym._magworm import Specification
 
 
-def box(specifications: Iterable[Specification]) -> Box:
+@dataclass(frozen=True)
+class Part:
+    """One named slice of a row that a task appends; as a ``Specification`` of the simulator."""
+
+    name: str
+    unit: str
+    size: int
+    low: float
+    high: float
+    description: str
+
+
+AnyPart: TypeAlias = Specification | Part
+
+
+def box(specifications: Iterable[AnyPart]) -> Box:
     """The space of one row, with components in the order of `specifications`, as float32.
 
     Bounds that float32 cannot hold are rounded outwards: a value that keeps to the bound in
@@ -22,7 +39,7 @@ def box(specifications: Iterable[Specification]) -> Box:
     return Box(_rounded(low, towards=-np.inf), _rounded(high, towards=np.inf), dtype=np.float32)
 
 
-def layout(specifications: Iterable[Specification]) -> dict[str, slice]:
+def layout(specifications: Iterable[AnyPart]) -> dict[str, slice]:
     """Where each named part stands in a row: ``row[layout["last_action"]]``."""
     slices, start = {}, 0
     for part in specifications:

@@ -18,32 +18,40 @@ from magworm_gym import snapshot
 from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
 from magworm_gym.drawing import Drawing, Frame
+from magworm_gym.draws import uniform
 from magworm_gym.infos import Flags, Infos, add, reasons, rows
 from magworm_gym.reset_options import ResetOptions, read_options, start_limits
 from magworm_gym.scene import load_scene
-from magworm_gym.spaces import box, layout
+from magworm_gym.spaces import AnyPart, box, layout
+from magworm_gym.tasks import Task, task_named
 
 Observations = NDArray[np.float32]
 
-MM_PER_M = 1000.0
 RENDER_MODES = ("human", "rgb_array")
+COUNTED = ("_seeds", "_episodes", "_elapsed_steps", "_ended", "_starts", "_goals")
+"""Attributes that change in time, beside the simulator's state and the task's."""
+TASK = "task_"
+"""Before the names of a task's state."""
 
 
 class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
-    """N worms that crawl above a driven magnet, advanced together by the compiled simulator.
+    """N worms above a driven magnet, advanced together by the compiled simulator.
 
-    Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``.
+    Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``, or ``Turn-v0``,
+    ``Reach-v0``. What is asked of them is their task: see :class:`~magworm_gym.tasks.Crawl`,
+    :class:`~magworm_gym.tasks.Turn` and :class:`~magworm_gym.tasks.Reach` for rewards, goals, ends and infos.
 
     **Action** (A,), float32 in [-1, 1], clipped: target position of the stage along the robot, its
     height, its travel speed; in space also its place to the robot's side and, where the stage has it,
-    its yaw: see ``batch.action_specification``. **Observation**: see :attr:`observation_layout`; units and bounds
-    stand in ``batch.observation_specification``. **Reward**: forward progress (towards the head)
-    within the control step [mm]; 0 in the step in which a worm breaks. **Terminated**: never.
-    **Truncated**: at the time limit, or where the simulation of a worm breaks numerically.
+    its yaw: see ``batch.action_specification``. **Observation**: see :attr:`observation_layout`; units and
+    bounds stand in :attr:`observation_specification`. **Reward** and **terminated**: the task's; 0 and False in
+    the step in which a worm breaks. **Truncated**: at the time limit, or where the simulation of a worm
+    breaks numerically.
 
-    **Info** of a step: ``progress_m``, ``time_s`` since the start of the episode, and where an
-    episode ends ``time_limit`` (bool: it ended by the limit) and ``broken`` (the reason, only for
-    broken worms). Of a reset: ``time_s``, ``seed``, ``episode_number``. As usual in Gymnasium, each
+    **Info** of a step: ``progress_m``, ``time_s`` since the start of the episode, what the task adds, and
+    where an episode ends ``time_limit`` (bool: it ended by the limit), ``is_success`` (bool: only for tasks
+    with a goal) and ``broken`` (the reason, only for broken worms). Of a reset: ``time_s``, ``seed``,
+    ``episode_number``, and the task's goal. As usual in Gymnasium, each
     is an array of length N beside a mask ``_key``.
 
     **Seeds**: what a reset draws depends on the seed of the environment and the number of its
@@ -58,11 +66,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     - ``"removed"``: magnets taken out, counted from 0 at the head, in place of the scene's own
       ``removed``: one sequence for all, or N sequences.
     - ``"parameters"``: factors of the scene's values by name, see ``batch.parameter_names``.
+    - ``"goal_deg"`` or ``"goal_m"``: see the task; where it is left out, each episode draws a goal.
     - ``"reset_mask"``: bool array (N,), the environments to reset.
 
     Args:
         num_envs: Number of environments N.
-        scene: Preset, path of a TOML file, or scene; its drive must follow actions.
+        scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the
+            task's: ``paper-3`` in the plane for "crawl", ``turn-3`` in space for the others.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None; "rgb_array": :meth:`render` returns frames; "human": a window follows
             each reset and step.
@@ -70,6 +80,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         render_envs: Environments to draw. "human" shows the first of them.
         lanes: "wide" for SIMD, or "scalar"; the results are equal bit for bit.
         threads: Most threads to use; None for all cores.
+        task: "crawl", "turn" or "reach".
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -84,15 +95,17 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     def __init__(
         self,
         num_envs: int = 1,
-        scene: str | PathLike[str] | Scene = "paper-3",
+        scene: str | PathLike[str] | Scene | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         render_envs: Sequence[int] = (0,),
         lanes: str = "wide",
         threads: int | None = None,
+        task: str = "crawl",
     ) -> None:
-        scene = load_scene(scene)
+        kind = task_named(task)
+        scene = load_scene(kind.default_scene if scene is None else scene)
         if not scene.controlled:
             raise ValueError(
                 f"scene {scene.name!r} has no drive that follows actions (drive.motion 'controlled')"
@@ -112,7 +125,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         )
         self._max_episode_steps = positive("max_episode_steps", limit)
 
-        self.single_observation_space = box(self._batch.observation_specification)
+        observed = self._batch.observation_specification
+        self._task = kind(scene, observed, self.num_envs)
+        self.single_observation_space = box(self.observation_specification)
         self.single_action_space = box(self._batch.action_specification)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -122,7 +137,11 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self._episodes = np.full(self.num_envs, -1, np.int64)  # -1: never reset
         self._elapsed_steps = np.zeros(self.num_envs, np.int64)
         self._ended = np.zeros(self.num_envs, np.bool_)
-        self._starts = np.full((self.num_envs, len(start_limits(scene.dimensions))), np.nan)  # NaN: the scene's
+        self._starts = np.full(
+            (self.num_envs, len(start_limits(scene.dimensions))), np.nan
+        )  # NaN: the scene's
+        goal = self._task.goal_option
+        self._goals = np.full((self.num_envs, 0 if goal is None else goal.size), np.nan)  # NaN: drawn
 
     @property
     def batch(self) -> Batch:
@@ -140,9 +159,19 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         return self._max_episode_steps
 
     @property
+    def task(self) -> Task:
+        """What is asked of the worms."""
+        return self._task
+
+    @property
+    def observation_specification(self) -> tuple[AnyPart, ...]:
+        """Name, unit, size and bounds of each part of an observation: the simulator's, then the task's."""
+        return (*self._batch.observation_specification, *self._task.parts)
+
+    @property
     def observation_layout(self) -> dict[str, slice]:
         """Where each named part stands in an observation."""
-        return layout(self._batch.observation_specification)
+        return layout(self.observation_specification)
 
     def reset(
         self,
@@ -172,16 +201,18 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             magnets=scene.magnets,
             parameter_names=self._batch.parameter_names,
             dimensions=scene.dimensions,
+            goal_option=self._task.goal_option,
         )
         self._equip(request)
         if isinstance(seed, (int, np.integer)):
             super().reset(seed=int(seed))
         self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
+        self._goals[request.mask] = np.nan if request.goal is None else request.goal[request.mask]
         self._start_episodes(request.mask, self._draw_seeds(seeds, request.mask))
         infos: Infos = {}
         self._add_reset_infos(infos, request.mask)
         self._show()
-        return self._batch.observe(), infos
+        return self._observe(), infos
 
     def step(self, actions: ArrayLike) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
         """Advances every environment by one control step.
@@ -191,7 +222,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
                 environments that reset in this step are ignored.
 
         Returns:
-            Fresh arrays: observations (N, O) float32, rewards (N,) [mm] float64, terminated (N,) and
+            Fresh arrays: observations (N, O) float32, rewards (N,) float64, terminated (N,) and
             truncated (N,) bool, and the infos.
 
         Raises:
@@ -201,36 +232,45 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         values = action_rows(actions, self._action_shape)
         resetting = self._due_to_reset()
         stepping = ~resetting
-        observations, progress_m, status = self._advance(values, resetting)
+        simulated, progress_m, status = self._advance(values, resetting)
+        verdict = self._task.judge(self._batch, progress_m, stepping)
+        observations = self._observe(simulated)
         broken = stepping & (status != 0)
+        sound = stepping & ~broken
         self._elapsed_steps += stepping
-        timed_out = stepping & ~broken & (self._elapsed_steps >= self._max_episode_steps)
+        terminated = sound & verdict.terminated
+        timed_out = sound & ~terminated & (self._elapsed_steps >= self._max_episode_steps)
         truncated = broken | timed_out
-        rewards = np.where(stepping & ~broken, MM_PER_M * progress_m, 0.0)
+        ended = terminated | truncated
+        rewards = np.where(sound, verdict.rewards, 0.0)
         time_s = self._batch.time_s()
 
         def step_infos(mask: Flags) -> Infos:
             infos: Infos = {}
             add(infos, "progress_m", progress_m, mask)
             add(infos, "time_s", time_s, mask)
-            add(infos, "time_limit", timed_out, mask & truncated)
+            for key, told in verdict.infos.items():
+                add(infos, key, told, mask)
+            add(infos, "time_limit", timed_out, mask & ended)
+            if verdict.success is not None:
+                add(infos, "is_success", verdict.success & ~broken, mask & ended)
             if broken.any():
                 add(infos, "broken", reasons(status), mask & broken)
             return infos
 
         same_step = self._autoreset is AutoresetMode.SAME_STEP
-        starting = truncated if same_step else resetting
+        starting = ended if same_step else resetting
         infos = step_infos(stepping & ~starting)
         if starting.any():
             if same_step:
                 add(infos, "final_obs", rows(observations), starting)
                 infos["final_info"], infos["_final_info"] = step_infos(starting), starting.copy()
             self._start_episodes(starting, self._episodes + 1)
-            observations = self._batch.observe()
+            observations = self._observe()
             self._add_reset_infos(infos, starting)
-        self._ended = np.zeros_like(truncated) if same_step else truncated.copy()
+        self._ended = np.zeros_like(ended) if same_step else ended.copy()
         self._show()
-        return observations, rewards, np.zeros_like(truncated), truncated, infos
+        return observations, rewards, terminated, truncated, infos
 
     def render(self) -> tuple[Frame, ...] | None:
         """Draws the environments `render_envs`.
@@ -266,8 +306,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         random = json.loads(fields["random"].item())
         self._batch.set_state(fields["batch"].tobytes())
         self.np_random.bit_generator.state = random
-        for name in self._counted():
+        for name in COUNTED:
             setattr(self, name, fields[name])
+        self._task.state = {name: fields[f"{TASK}{name}"] for name in self._task.state}
         if self._drawing is not None:
             self._drawing.forget(np.ones(self.num_envs, np.bool_))
 
@@ -283,9 +324,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         return {**self.__dict__, "_drawing": None}
 
     def _counted(self) -> dict[str, NDArray[Any]]:
-        """What changes in time on this side of the simulator, by attribute."""
-        names = ("_seeds", "_episodes", "_elapsed_steps", "_ended", "_starts")
-        return {name: getattr(self, name) for name in names}
+        """What changes in time on this side of the simulator."""
+        task = {f"{TASK}{name}": values for name, values in self._task.state.items()}
+        return {**{name: getattr(self, name) for name in COUNTED}, **task}
 
     def _simulated(self) -> dict[str, NDArray[Any]]:
         return {
@@ -334,6 +375,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             self._batch.reset(placed, *keys, start=np.nan_to_num(self._starts))
         if (mask & ~placed).any():
             self._batch.reset(mask & ~placed, *keys)
+        drawn = uniform(self._seeds, np.maximum(self._episodes, 0), self._task.draws)
+        self._task.begin(self._batch, mask, self._goals, drawn)
         if self._drawing is not None:
             self._drawing.forget(mask)
 
@@ -345,7 +388,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         if self._autoreset is AutoresetMode.DISABLED and self._ended.any():
             raise ResetNeeded(
                 f"the episode of environment {np.flatnonzero(self._ended)[0]} has ended and autoreset is "
-                "disabled: call reset(options={'reset_mask': truncated}) before step()"
+                "disabled: call reset(options={'reset_mask': terminated | truncated}) before step()"
             )
         return self._ended.copy()
 
@@ -357,10 +400,19 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         # The simulator advances all: what it makes of the others is dropped by their reset.
         return self._batch.step(np.where(resetting[:, None], 0.0, actions) if resetting.any() else actions)
 
+    def _observe(self, simulated: Observations | None = None) -> Observations:
+        """What the simulator observes, or has, with what the task appends to it."""
+        simulated = self._batch.observe() if simulated is None else simulated
+        if not self._task.parts:
+            return simulated
+        return np.concatenate([simulated, self._task.observe(self._batch).astype(np.float32)], axis=1)
+
     def _add_reset_infos(self, infos: Infos, mask: Flags) -> None:
         add(infos, "time_s", self._batch.time_s(), mask)
         add(infos, "seed", self._seeds, mask)
         add(infos, "episode_number", self._episodes, mask)
+        for key, told in self._task.reset_infos().items():
+            add(infos, key, told, mask)
 
     def _drawn(self) -> Drawing:
         if self._drawing is None:

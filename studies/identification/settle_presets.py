@@ -30,7 +30,7 @@ REPORTS = ROOT / "docs/identification"
 RESTARTS = HERE / "restarts"
 
 PRESETS = {
-    "paper-3": ("paper-3", "paper-4", "paper-5", "belt-125", "paper-3-experiment"),
+    "paper-3": ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125", "paper-3-experiment"),
     "paper-3-experiment": ("paper-3-experiment",),
 }
 """Name of a problem → presets that take its values; the second changes some of the first's."""

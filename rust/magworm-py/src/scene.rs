@@ -137,6 +137,9 @@ impl Scene {
         dict.set_item("polarity", polarity)?;
         let drive = scene.drive.as_ref().map_or((0.0, 0.0), |d| (d.length_m, d.height_m));
         dict.set_item("drive_size_m", drive)?;
+        dict.set_item("body_width_m", mesh.width_m)?;
+        dict.set_item("magnet_width_m", scene.magnet.as_ref().map_or(0.0, |m| m.width_m))?;
+        dict.set_item("drive_width_m", scene.drive.as_ref().map_or(0.0, |d| d.width_m))?;
         dict.set_item("ground", scene.ground.is_some())?;
         dict.set_item("incline_deg", scene.ground.as_ref().map_or(0.0, |g| g.incline_deg))?;
         Ok(dict)

@@ -4,19 +4,27 @@ use super::Scene;
 use super::error::{Problem, SceneError};
 
 /// Name and text of each preset.
-const TEXTS: [(&str, &str); 7] = [
+const TEXTS: [(&str, &str); 8] = [
     ("paper-3", include_str!("../../scenes/paper-3.toml")),
     ("paper-3-experiment", include_str!("../../scenes/paper-3-experiment.toml")),
     ("paper-4", include_str!("../../scenes/paper-4.toml")),
     ("paper-5", include_str!("../../scenes/paper-5.toml")),
+    ("turn-3", include_str!("../../scenes/turn-3.toml")),
     ("cantilever", include_str!("../../scenes/cantilever.toml")),
     ("belt-125", include_str!("../../scenes/belt-125.toml")),
     ("incline-block", include_str!("../../scenes/incline-block.toml")),
 ];
 
 /// Names that [`Scene::preset`] knows.
-pub const PRESETS: &[&str] =
-    &[TEXTS[0].0, TEXTS[1].0, TEXTS[2].0, TEXTS[3].0, TEXTS[4].0, TEXTS[5].0, TEXTS[6].0];
+pub const PRESETS: &[&str] = &{
+    let mut names = [""; TEXTS.len()];
+    let mut k = 0;
+    while k < names.len() {
+        names[k] = TEXTS[k].0;
+        k += 1;
+    }
+    names
+};
 
 impl Scene {
     /// One of [`PRESETS`].

@@ -1,0 +1,27 @@
+"""Random numbers that depend on (seed, episode, place in the sequence) alone, as the simulator's do."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+# Keeps what a task draws apart from what the simulator draws for the same seed and episode.
+STREAM = np.uint64(0x7A5B_1C3D_9E8F_2041)
+PER_EPISODE = np.uint64(0xD134_2543_DE82_EF95)
+PER_DRAW = np.uint64(0x9E37_79B9_7F4A_7C15)
+
+
+def uniform(seeds: NDArray[np.int64], episodes: NDArray[np.int64], count: int) -> NDArray[np.float64]:
+    """Numbers uniform in [0, 1): a row of `count` for each seed and episode (N,).
+
+    SplitMix64 (Steele, Lea & Flood 2014) as a counter-based generator: a row is the same for any N,
+    place in a batch and order of resets.
+    """
+    keys = _mix(_mix(seeds.astype(np.uint64) ^ STREAM) ^ episodes.astype(np.uint64) * PER_EPISODE)
+    places = np.arange(1, count + 1, dtype=np.uint64) * PER_DRAW
+    bits = _mix(keys[:, None] + places) >> np.uint64(11)
+    return bits.astype(np.float64) / 2.0**53
+
+
+def _mix(z: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58_476D_1CE4_E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D0_49BB_1331_11EB)
+    return z ^ (z >> np.uint64(31))

@@ -1,0 +1,98 @@
+"""Crawl to a point on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Batch, Scene, Specification
+from magworm_gym.spaces import Part
+from magworm_gym.tasks.task import (
+    MM_PER_M,
+    Flags,
+    Floats,
+    Goal,
+    GoalOption,
+    Task,
+    Verdict,
+    metres,
+    named,
+)
+
+NEAREST_M, FURTHEST_M = 0.030, 0.080
+WIDEST_DEG = 60.0
+TOLERANCE_M = 0.005
+
+
+class Reach(Task):
+    """Bring the robot's centre to a point on the ground.
+
+    **Goal**: drawn 30 to 80 mm from the robot's centre, up to 60° to either side of straight ahead, both
+    uniformly; option ``goal_m`` sets it: ``[x, z]`` [m] from the robot's centre at the start, x towards
+    its tail (so ahead is negative) and z to its left; a pair for all or an array (N, 2).
+
+    **Reward**: decrease of the distance of the robot's centre from the goal within the control step [mm].
+
+    **Terminated**: within 5 mm of the goal.
+
+    **Info** of a step: ``distance_m`` left; where an episode ends ``is_success``: 5 mm or less. Of a
+    reset: ``goal_m``, x and z in the world.
+    """
+
+    name = "reach"
+    goal_option = GoalOption("goal_m", (2,), 1.0)
+    draws = 2
+
+    def __init__(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
+        super().__init__(scene, observed, num_envs)
+        place = named(observed, "drive_position")
+        self._unit_m = metres(place)
+        self.parts = (
+            Part("goal_position", place.unit, 2, -np.inf, np.inf, "x and z of the goal"),
+            Part("goal_distance", place.unit, 1, 0.0, np.inf, "distance of the goal from the robot's centre"),
+        )
+        self.state = {"goal_m": np.zeros((num_envs, 2)), "distance_m": np.zeros(num_envs)}
+
+    def begin(self, batch: Batch, mask: Flags, asked: Floats, drawn: Floats) -> None:
+        """See the class."""
+        distance = NEAREST_M + (FURTHEST_M - NEAREST_M) * drawn[:, 0]
+        aside = np.deg2rad(WIDEST_DEG) * (2.0 * drawn[:, 1] - 1.0)
+        drawn_m = distance[:, None] * np.stack([-np.cos(aside), np.sin(aside)], axis=1)
+        x, z = np.where(np.isnan(asked), drawn_m, asked).T.copy()
+        poses = batch.robot_poses()
+        heading = poses[:, 2].copy()
+        cos, sin = np.cos(heading), np.sin(heading)
+        goal_m = poses[:, :2] + np.stack([x * cos + z * sin, z * cos - x * sin], axis=1)
+        self.state["goal_m"] = np.where(mask[:, None], goal_m, self.state["goal_m"])
+        self.state["distance_m"] = np.where(mask, self._distance_m(poses), self.state["distance_m"])
+
+    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+        """See the class."""
+        before = self.state["distance_m"]
+        distance = np.where(mask, self._distance_m(batch.robot_poses()), before)
+        self.state["distance_m"] = distance
+        reached = distance <= TOLERANCE_M
+        return Verdict(MM_PER_M * (before - distance), reached, reached, {"distance_m": distance})
+
+    def observe(self, batch: Batch) -> Floats:
+        """See the class."""
+        poses = batch.robot_poses()
+        x, z = (self.state["goal_m"] - poses[:, :2]).T.copy()
+        heading = poses[:, 2].copy()
+        cos, sin = np.cos(heading), np.sin(heading)
+        seen = np.stack([x * cos - z * sin, x * sin + z * cos, np.hypot(x, z)], axis=1)
+        return np.asarray(seen / self._unit_m)
+
+    def reset_infos(self) -> dict[str, NDArray[np.float64]]:
+        """See the class."""
+        return {"goal_m": self.state["goal_m"]}
+
+    def goal(self, i: int) -> Goal:
+        """See the class."""
+        x, z = self.state["goal_m"][i].tolist()
+        return Goal(point_m=(x, z), radius_m=TOLERANCE_M)
+
+    def _distance_m(self, poses: Floats) -> Floats:
+        return np.asarray(np.linalg.norm(self.state["goal_m"] - poses[:, :2], axis=1))

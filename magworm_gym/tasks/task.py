@@ -1,0 +1,147 @@
+"""What a task is."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Batch, Scene, Specification
+from magworm_gym.spaces import Part
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+MM_PER_M = 1000.0
+
+
+@dataclass(frozen=True)
+class GoalOption:
+    """The option of a reset that sets a goal in place of a drawn one.
+
+    Attributes:
+        name: Key among the options.
+        shape: Shape of one goal: () for a number, (2,) for a pair.
+        limit: Largest magnitude of each number.
+    """
+
+    name: str
+    shape: tuple[int, ...]
+    limit: float
+
+    @property
+    def size(self) -> int:
+        """How many numbers a goal has."""
+        return int(np.prod(self.shape))
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A goal in the world, to be drawn: a heading [rad] or a point x, z [m] with its radius [m]."""
+
+    heading_rad: float | None = None
+    point_m: tuple[float, float] | None = None
+    radius_m: float = 0.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a task makes of one control step of N environments.
+
+    Attributes:
+        rewards: (N,).
+        terminated: (N,) whether the task is over.
+        success: (N,) whether an episode that ends here has reached its goal; None for tasks without one.
+        infos: Arrays (N, …) that the infos get, by key.
+    """
+
+    rewards: Floats
+    terminated: Flags
+    success: Flags | None = None
+    infos: dict[str, NDArray[Any]] = field(default_factory=dict)
+
+
+class Task(ABC):
+    """What is asked of N environments of a scene: goals, what is told of them, rewards and ends.
+
+    NumPy's sines may differ in the last bit between strided and contiguous arrays: a task takes them of
+    contiguous ones, so that an environment does the same whatever their number.
+
+    Whatever changes in time stands in :attr:`state`, so that environments are saved and copied
+    with it. Environments that the simulator broke are no concern of a task.
+
+    Args:
+        scene: The scene of every environment.
+        observed: What the simulator puts into an observation.
+        num_envs: Number of environments N.
+
+    Raises:
+        ValueError: The task cannot be done in this scene.
+    """
+
+    name: ClassVar[str]
+    default_scene: ClassVar[str] = "turn-3"
+    goal_option: ClassVar[GoalOption | None] = None
+    draws: ClassVar[int] = 0
+    """How many random numbers a goal takes."""
+
+    parts: tuple[Part, ...] = ()
+    """What the task appends to an observation."""
+    state: dict[str, Floats]
+    """What changes in time, by name; arrays (N, …)."""
+
+    def __init__(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
+        if self.goal_option is not None and scene.dimensions != 3:
+            raise ValueError(
+                f"task {self.name!r} needs a scene in space (dimensions = 3); {scene.name!r} is in the plane"
+            )
+        self.state = {}
+
+    def begin(self, batch: Batch, mask: Flags, asked: Floats, drawn: Floats) -> None:  # noqa: B027
+        """Sets goals where episodes start, after the simulator has reset them.
+
+        Args:
+            batch: The environments.
+            mask: Those that start (N,).
+            asked: Goals given as option (N, goal), NaN for those to draw.
+            drawn: Random numbers (N, draws), uniform in [0, 1).
+        """
+
+    @abstractmethod
+    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+        """Judges the control step just done.
+
+        Args:
+            batch: The environments.
+            progress_m: Progress towards the head in the step (N,) [m].
+            mask: The environments that stepped (N,): the state of the others stays, their verdict is not used.
+        """
+
+    def observe(self, batch: Batch) -> Floats:
+        """What the task appends to the observations (N, size of :attr:`parts`)."""
+        return np.zeros((batch.num_envs, 0))
+
+    def reset_infos(self) -> dict[str, NDArray[Any]]:
+        """Arrays (N, …) that the infos of a reset get, by key."""
+        return {}
+
+    def goal(self, i: int) -> Goal | None:
+        """The goal of environment i, to be drawn; None without one."""
+        return None
+
+
+def metres(part: Specification) -> float:
+    """The unit of a length [m] that the simulator declares, such as "0.02 m"."""
+    number, _, unit = part.unit.rpartition(" ")
+    if unit != "m":
+        raise ValueError(f"{part.name} is in {part.unit}, not a length")
+    return float(number)
+
+
+def named(parts: Sequence[Specification], name: str) -> Specification:
+    """The part of that name."""
+    return next(part for part in parts if part.name == name)
