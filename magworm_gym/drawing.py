@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from magworm_gym._magworm import Batch
 
 if TYPE_CHECKING:
-    from magworm_gym.render import SideView
+    from magworm_gym.render import SideView, SpaceView
+    from magworm_gym.tasks import Task
 
 Frame = NDArray[np.uint8]
 
@@ -20,25 +21,27 @@ HEIGHT_PX = 360
 
 
 class Drawing:
-    """Side views of chosen environments, each with the trail of its episode.
+    """Views of chosen environments, each with the trail of its episode and in space with its goal.
 
     A trail holds the places of the body's centre at the times that were drawn.
 
     Args:
         batch: The environments.
         chosen: Indices of those to draw.
+        task: Has their goals.
 
     Raises:
         ImportError: What drawing needs is not installed; the sentence names the extra.
     """
 
-    def __init__(self, batch: Batch, chosen: tuple[int, ...]) -> None:
+    def __init__(self, batch: Batch, chosen: tuple[int, ...], task: Task) -> None:
         # Drawing is an extra: only an environment that draws needs it.
-        from magworm_gym.render import SideView
+        from magworm_gym.render import view_of
 
         self._batch = batch
-        self._views: dict[int, SideView] = {
-            i: SideView(batch.scene.geometry, width=WIDTH_PX, height=HEIGHT_PX) for i in chosen
+        self._task = task
+        self._views: dict[int, SideView | SpaceView] = {
+            i: view_of(batch.scene, WIDTH_PX, HEIGHT_PX) for i in chosen
         }
         self._trails: dict[int, list[NDArray[np.float64]]] = {i: [] for i in chosen}
         self._shown_s = 0.0
@@ -73,6 +76,7 @@ class Drawing:
     def _draw(self, i: int) -> Frame:
         nodes_m = self._batch.node_positions()[i]
         self._trails[i].append(nodes_m.mean(axis=0))
+        goal = self._task.goal(i)
         return self._views[i].draw(
             nodes_m,
             self._batch.magnet_poses()[i],
@@ -80,4 +84,5 @@ class Drawing:
             self._batch.drive_positions()[i],
             np.array(self._trails[i]),
             f"{self._batch.time_s()[i]:.2f} s",
+            **({} if goal is None else {"goal": goal}),
         )

@@ -22,8 +22,9 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
     """One worm above a driven magnet.
 
     Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``, or ``Turn-v0``, ``Reach-v0``. Actions,
-    observations, rewards, seeds and options are those of :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the
-    leading axis; infos hold plain numbers and strings, without masks.
+    observations, rewards, seeds and options are those of
+    :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the leading axis;
+    infos hold plain numbers and strings, without masks.
 
     The time limit is the scene's. ``gymnasium.make(..., max_episode_steps=…)`` adds Gymnasium's own
     limit on top: the sooner of the two ends an episode.

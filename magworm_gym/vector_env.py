@@ -44,8 +44,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     **Action** (A,), float32 in [-1, 1], clipped: target position of the stage along the robot, its
     height, its travel speed; in space also its place to the robot's side and, where the stage has it,
     its yaw: see ``batch.action_specification``. **Observation**: see :attr:`observation_layout`; units and
-    bounds stand in :attr:`observation_specification`. **Reward** and **terminated**: the task's; 0 and False in
-    the step in which a worm breaks. **Truncated**: at the time limit, or where the simulation of a worm
+    bounds stand in :attr:`observation_specification`. **Reward** and **terminated**: the task's; 0 and False
+    in the step in which a worm breaks. **Truncated**: at the time limit, or where the simulation of a worm
     breaks numerically.
 
     **Info** of a step: ``progress_m``, ``time_s`` since the start of the episode, what the task adds, and
@@ -416,7 +416,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def _drawn(self) -> Drawing:
         if self._drawing is None:
-            self._drawing = Drawing(self._batch, self._render_envs)
+            self._drawing = Drawing(self._batch, self._render_envs, self._task)
         return self._drawing
 
     def _show(self) -> None:

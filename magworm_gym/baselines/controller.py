@@ -13,15 +13,16 @@ Floats = NDArray[np.float64]
 class Controller(Protocol):
     """Gives actions to a batch whose drive is controlled.
 
-    Actions (N, 3) lie in [-1, 1]: target along the robot relative to its centre, in units of the
-    stage's reach; target height between the lowest and the highest; travel speed from 0 to the limit.
+    Actions (N, A) lie in [-1, 1]; ``batch.action_specification`` declares them. In the plane: target along the
+    robot relative to its centre, in units of the stage's reach; target height between the lowest and
+    the highest; travel speed from 0 to the limit.
     """
 
     def start(self, batch: Batch) -> None:
         """Called once after each reset of the whole batch."""
 
     def act(self, batch: Batch) -> Floats:
-        """Actions (N, 3) of the next control step."""
+        """Actions (N, A) of the next control step."""
 
 
 class Still:
@@ -31,8 +32,10 @@ class Still:
         """Nothing to prepare."""
 
     def act(self, batch: Batch) -> Floats:
-        """Actions (N, 3): centred, lowest, full speed."""
-        return np.tile([0.0, -1.0, 1.0], (batch.num_envs, 1))
+        """Actions (N, A): centred, lowest, full speed."""
+        parked = {"height": -1.0, "speed": 1.0}
+        row = [parked.get(part.name, 0.0) for part in batch.action_specification]
+        return np.tile(row, (batch.num_envs, 1))
 
 
 class UniformlyRandom:
@@ -49,5 +52,6 @@ class UniformlyRandom:
         """Nothing to prepare; the draws go on."""
 
     def act(self, batch: Batch) -> Floats:
-        """Actions (N, 3)."""
-        return self._generator.uniform(-1.0, 1.0, size=(batch.num_envs, 3))
+        """Actions (N, A)."""
+        size = sum(part.size for part in batch.action_specification)
+        return self._generator.uniform(-1.0, 1.0, size=(batch.num_envs, size))

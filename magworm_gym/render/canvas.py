@@ -129,6 +129,10 @@ class Canvas:
             return None
         return OpenRegion(self._image, (int(low[0]), int(low[1]), int(high[0]), int(high[1])))
 
+    def whole(self) -> "OpenRegion":
+        """Supersamples all of the frame."""
+        return OpenRegion(self._image, (0, 0, *self._image.size))
+
 
 class OpenRegion:
     """Enlarges a box of an image on entry and writes it back, reduced, on exit."""

@@ -1,4 +1,4 @@
-"""Colours of the side view, red-green-blue from 0 to 255."""
+"""Colours of the views, red-green-blue from 0 to 255."""
 
 from typing import TypeAlias
 
@@ -10,6 +10,11 @@ PLATE: Colour = (206, 217, 230)
 BELOW_PLATE: Colour = (228, 233, 240)
 GROUND_LINE: Colour = (70, 84, 104)
 TICK: Colour = (112, 126, 146)
+PLATE_ABOVE: Colour = (240, 244, 248)
+GRID: Colour = (226, 232, 239)
+GRID_LABELLED: Colour = (204, 213, 224)
+DRIVE_BELOW: Colour = (232, 190, 192)
+GOAL: Colour = (222, 140, 20)
 TEXT: Colour = (38, 48, 64)
 
 RUBBER_EDGE: Colour = (176, 122, 96)

@@ -92,6 +92,7 @@ class SideView:
         drive_positions: Floats,
         trail: Floats,
         text: str | None = None,
+        drive_lengths: Floats | None = None,
     ) -> NDArray[np.uint8]:
         """Draws one frame.
 
@@ -102,6 +103,7 @@ class SideView:
             drive_positions: Centres of the drive magnets (D, 2) [m].
             trail: Past places of the body centre (T, 2) [m], oldest first; may be empty.
             text: Written in the upper left corner, lines separated by newlines.
+            drive_lengths: Lengths of the drive magnets as seen from the side (D,) [m]; None for the scene's.
 
         Returns:
             A fresh frame (H, W, 3), uint8, red-green-blue.
@@ -111,7 +113,9 @@ class SideView:
         canvas = Canvas(self._background)
         if self._ground:
             backdrop.draw_ticks(canvas, camera, self._text_px)
-        self._draw_drives(canvas, camera, np.asarray(drive_positions, dtype=np.float64))
+        drives = np.asarray(drive_positions, dtype=np.float64)
+        lengths = np.full(len(drives), self._drive_size[0]) if drive_lengths is None else drive_lengths
+        self._draw_drives(canvas, camera, drives, lengths)
         if np.all(np.isfinite(nodes)):
             self._draw_robot(canvas, camera, nodes, magnet_poses, present, trail)
         self._draw_text(canvas, text)
@@ -148,15 +152,15 @@ class SideView:
         self._camera.follow(float(nodes[:, 0].mean()))
         return self._camera
 
-    def _draw_drives(self, canvas: Canvas, camera: Camera, positions: Floats) -> None:
-        length, height = self._drive_size
-        for x, y in positions.tolist():
+    def _draw_drives(self, canvas: Canvas, camera: Camera, positions: Floats, lengths: Floats) -> None:
+        height = self._drive_size[1]
+        for (x, y), length in zip(positions.tolist(), lengths.tolist(), strict=True):
             corners = camera.pixels(rectangle(x, y, 0.0, length, -0.5 * height, 0.5 * height))
             opened = canvas.region([corners])
             if opened is None:
                 continue
             with opened as region:
-                _draw_magnet(region, camera, (x, y, 0.0), self._drive_size, 1.0)
+                _draw_magnet(region, camera, (x, y, 0.0), (length, height), 1.0)
             pole_px = 0.5 * height * camera.pixels_per_m
             if pole_px >= SMALLEST_LETTER_PX:
                 column, row = corners.mean(axis=0).tolist()
@@ -178,7 +182,7 @@ class SideView:
         if opened is None:
             return
         with opened as region:
-            _draw_trail(region, line)
+            draw_trail(region, line)
             self._draw_rubber(region, camera, nodes, body)
             for pose, there, polarity in zip(poses.tolist(), present, self._polarity, strict=True):
                 _draw_magnet(region, camera, pose, self._magnet_size, polarity if there else 0.0)
@@ -208,7 +212,7 @@ def _draw_eye(region: Region, centre_line: Floats, thickness: float) -> None:
     region.disc(centre_line[0] + thickness * (0.17 * inward + 0.2 * upward), max(1.2, 0.065 * thickness), EYE)
 
 
-def _draw_trail(region: Region, line: Floats) -> None:
+def draw_trail(region: Region, line: Floats) -> None:
     """Draws the trail in pieces that fade towards the past."""
     if len(line) < 2:
         return

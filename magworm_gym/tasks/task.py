@@ -118,7 +118,7 @@ class Task(ABC):
         Args:
             batch: The environments.
             progress_m: Progress towards the head in the step (N,) [m].
-            mask: The environments that stepped (N,): the state of the others stays, their verdict is not used.
+            mask: The environments that stepped (N,): the others keep their state, their verdict is not used.
         """
 
     def observe(self, batch: Batch) -> Floats:

@@ -33,8 +33,8 @@ class Turn(Task):
     side, or its upper face points down.
 
     **Info** of a step: ``heading_rad``, ``heading_error_rad`` (goal − heading), ``roll_rad`` of the
-    magnet that rolls furthest; where an episode ends ``is_success``: less than 3° are left, and the robot has neither
-    tipped over nor broken. Of a reset: ``goal_rad``, the heading asked for.
+    magnet that rolls furthest; where an episode ends ``is_success``: less than 3° are left, and the
+    robot has neither tipped over nor broken. Of a reset: ``goal_rad``, the heading asked for.
     """
 
     name = "turn"

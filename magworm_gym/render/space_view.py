@@ -1,0 +1,133 @@
+"""A robot in space: from above and from its side, in one frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.render.side_view import SideView
+from magworm_gym.render.top_view import TopView
+from magworm_gym.render.window import Window
+
+if TYPE_CHECKING:
+    from magworm_gym.tasks import Goal
+
+Floats = NDArray[np.float64]
+
+SEPARATOR_PX = 2
+SEPARATOR_GREY = 120
+SIDE_SPAN_BODY_LENGTHS = 2.6
+
+
+class SpaceView:
+    """Draws frames of one environment in space; two panels, of one robot at one time.
+
+    Left the robot from above, as :class:`~magworm_gym.render.top_view.TopView` draws it; right the same from
+    its side, as :class:`~magworm_gym.render.SideView` does: the plane through its heading, head to the left,
+    its centre at 0.
+
+    Args:
+        geometry: ``Scene.geometry`` of a scene in space.
+        width: Width of a frame [pixels].
+        height: Height of a frame [pixels].
+
+    Raises:
+        ImportError: Pillow is missing; the sentence names the extra to install.
+    """
+
+    def __init__(self, geometry: dict[str, Any], width: int = 640, height: int = 360) -> None:
+        self.width = width
+        self.height = height
+        self._geometry = geometry
+        top_width = min(height, width // 2)
+        self._top = TopView(geometry, top_width, height)
+        self._side_width = width - top_width - SEPARATOR_PX
+        self._side: SideView | None = None
+        self._window: Window | None = None
+
+    def draw(
+        self,
+        nodes: Floats,
+        magnet_poses: Floats,
+        present: NDArray[np.bool_],
+        drive_positions: Floats,
+        trail: Floats,
+        text: str | None = None,
+        goal: Goal | None = None,
+    ) -> NDArray[np.uint8]:
+        """Draws one frame.
+
+        Args:
+            nodes: Centre line (K, 3) [m], head first.
+            magnet_poses: Body magnets (M, 7): x, y, z [m] and quaternion w, x, y, z.
+            present: Which body magnets are in place (M,).
+            drive_positions: Drive magnets (D, 4): x, y, z [m] and yaw [rad].
+            trail: Past places of the body centre (T, 3) [m], oldest first; may be empty.
+            text: Written in the upper left corner, lines separated by newlines.
+            goal: Where the robot is to go or to look.
+
+        Returns:
+            A fresh frame (H, W, 3), uint8, red-green-blue.
+        """
+        nodes = np.asarray(nodes, dtype=np.float64)
+        top = self._top.draw(nodes, magnet_poses, present, drive_positions, trail, text, goal)
+        side = self._draw_side(nodes, magnet_poses, present, drive_positions)
+        line = np.full((self.height, SEPARATOR_PX, 3), SEPARATOR_GREY, dtype=np.uint8)
+        return np.concatenate([top, line, side], axis=1)
+
+    def show(self, frame: NDArray[np.uint8]) -> None:
+        """Shows a frame (H, W, 3) in a window, opened on the first call.
+
+        Raises:
+            ImportError: pygame is missing; the sentence names the extra to install.
+        """
+        if self._window is None:
+            self._window = Window(self.width, self.height)
+        self._window.show(frame)
+
+    def close(self) -> None:
+        """Closes the window, if one is open. May be called twice."""
+        if self._window is not None:
+            self._window.close()
+            self._window = None
+
+    def _draw_side(
+        self, nodes: Floats, poses: Floats, present: NDArray[np.bool_], drives: Floats
+    ) -> NDArray[np.uint8]:
+        if self._side is None:
+            length = float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum())
+            span_m = SIDE_SPAN_BODY_LENGTHS * length
+            self._side = SideView(
+                self._geometry, self._side_width, self.height, span_m=span_m, centre_m=0.0, horizon=0.4
+            )
+        along = nodes[-1, [0, 2]] - nodes[0, [0, 2]]
+        along = along / max(float(np.linalg.norm(along)), 1e-9)
+        origin = nodes[:, [0, 2]].mean(axis=0)
+
+        def flat(places: Floats) -> Floats:
+            return np.stack([(places[:, [0, 2]] - origin) @ along, places[:, 1]], axis=1)
+
+        # The drive as seen from the side: its length and width as its yaw from the robot turns them.
+        turned = drives[:, 3] - np.arctan2(-along[1], along[0])
+        size = np.array([self._geometry["drive_size_m"][0], self._geometry["drive_width_m"]])
+        seen = np.abs(np.stack([np.cos(turned), np.sin(turned)], axis=1)) @ size
+        return self._side.draw(
+            flat(nodes),
+            np.column_stack([flat(poses), _angles(poses, along)]),
+            present,
+            flat(drives),
+            np.zeros((0, 2)),
+            "side",
+            drive_lengths=seen,
+        )
+
+
+def _angles(poses: Floats, along: Floats) -> Floats:
+    """Angle of each magnet in the plane of a side view (M,) [rad], turned over where its up points down."""
+    w, x, y, z = poses[:, 3:].T
+    tangent = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * z - w * y)], axis=1) @ along
+    pitch = np.arctan2(2.0 * (x * y + w * z), tangent)
+    up = np.cos(pitch) * (1.0 - 2.0 * (x * x + z * z))
+    return np.where(up < 0.0, pitch + np.pi, pitch)
