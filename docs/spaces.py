@@ -1,4 +1,4 @@
-"""Writes the tables of observation and action into a Markdown file, as the simulator declares them.
+"""Writes the tables of observation and action into a Markdown file, as simulator and tasks declare them.
 
 They stand between the lines ``<!-- spaces -->`` and ``<!-- /spaces -->``::
 
@@ -11,47 +11,81 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from magworm_gym import Batch, Scene
-from magworm_gym._magworm import Specification
+from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID, MagWormVectorEnv
+from magworm_gym.registration import ARGUMENTS
+from magworm_gym.spaces import AnyPart
 
-PRESET = "paper-3"
 BEGIN, END = "<!-- spaces -->", "<!-- /spaces -->"
 
 
 def tables() -> str:
-    """Both tables as Markdown."""
-    scene = Scene.preset(PRESET)
-    batch = Batch(scene, 1)
-    observation, action = batch.observation_specification, batch.action_specification
-    limits = scene.stage_limits or {}
+    """All tables as Markdown: the plane, space, and what the tasks in space add."""
+    plane, turn, reach = (_environment(name) for name in (CRAWL_ID, TURN_ID, REACH_ID))
+    simulated = turn.batch.observation_specification
     return "\n".join(
         [
-            f"Action, `float32`, shape ({_size(action)},); values beyond the bounds are clipped:",
+            f"`{CRAWL_ID}`",
             "",
-            *_table(action),
+            *_action(plane),
             "",
-            f"Limits of the stage in `{PRESET}`: "
-            + ", ".join(f"`{name}` {value:g}" for name, value in limits.items())
-            + f"; a control step lasts {1000.0 * scene.control_step_s:g} ms.",
+            *_observation(plane, plane.observation_specification),
             "",
-            f"Observation, `float32`, shape ({_size(observation)},) for `{PRESET}` "
-            f"(M = {scene.magnets} body magnets):",
+            f"`{TURN_ID}`, `{REACH_ID}`, and `{CRAWL_ID}` with a scene in space",
             "",
-            *_table(observation),
+            *_action(turn),
+            "",
+            *_observation(turn, simulated),
+            "",
+            *_appended(TURN_ID, turn),
+            "",
+            *_appended(REACH_ID, reach),
         ]
     )
 
 
-def _size(parts: Iterable[Specification]) -> int:
+def _environment(name: str) -> MagWormVectorEnv:
+    return MagWormVectorEnv(1, threads=1, **ARGUMENTS[name])
+
+
+def _action(env: MagWormVectorEnv) -> list[str]:
+    parts, limits = env.batch.action_specification, env.scene.stage_limits or {}
+    return [
+        f"Action, `float32`, shape ({_size(parts)},); values beyond the bounds are clipped:",
+        "",
+        *_table(parts),
+        "",
+        f"Limits of the stage in `{env.scene.name}`: "
+        + ", ".join(f"`{name}` {value:g}" for name, value in limits.items())
+        + f"; a control step lasts {1000.0 * env.scene.control_step_s:g} ms.",
+    ]
+
+
+def _observation(env: MagWormVectorEnv, parts: Iterable[AnyPart]) -> list[str]:
+    parts = tuple(parts)
+    return [
+        f"Observation, `float32`, shape ({_size(parts)},) for `{env.scene.name}` "
+        f"(M = {env.scene.magnets} body magnets):",
+        "",
+        *_table(parts),
+    ]
+
+
+def _appended(name: str, env: MagWormVectorEnv) -> list[str]:
+    size = _size(env.observation_specification)
+    table = _table(env.task.parts, _size(env.batch.observation_specification))
+    return [f"`{name}` appends its goal; shape ({size},):", "", *table]
+
+
+def _size(parts: Iterable[AnyPart]) -> int:
     return sum(part.size for part in parts)
 
 
-def _table(parts: Iterable[Specification]) -> list[str]:
+def _table(parts: Iterable[AnyPart], start: int = 0) -> list[str]:
     rows = ["| at | name | unit | bounds | what |", "|---|---|---|---|---|"]
-    start = 0
     for part in parts:
         place = f"{start}" if part.size == 1 else f"{start}–{start + part.size - 1}"
-        bounds = f"{part.low:g} to {part.high:g}" if abs(part.low) < float("inf") else "–"
+        bounds = f"{part.low:g} to {part.high:g}" if abs(part.high) < float("inf") else "–"
+        bounds = f"from {part.low:g}" if abs(part.low) < float("inf") and bounds == "–" else bounds
         rows.append(f"| {place} | `{part.name}` | {part.unit} | {bounds} | {part.description} |")
         start += part.size
     return rows

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +77,7 @@ class Drawing:
         nodes_m = self._batch.node_positions()[i]
         self._trails[i].append(nodes_m.mean(axis=0))
         goal = self._task.goal(i)
+        beside: dict[str, Any] = {} if goal is None else {"goal": goal}  # only tasks in space have goals
         return self._views[i].draw(
             nodes_m,
             self._batch.magnet_poses()[i],
@@ -84,5 +85,5 @@ class Drawing:
             self._batch.drive_positions()[i],
             np.array(self._trails[i]),
             f"{self._batch.time_s()[i]:.2f} s",
-            **({} if goal is None else {"goal": goal}),
+            **beside,
         )

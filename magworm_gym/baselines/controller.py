@@ -13,9 +13,9 @@ Floats = NDArray[np.float64]
 class Controller(Protocol):
     """Gives actions to a batch whose drive is controlled.
 
-    Actions (N, A) lie in [-1, 1]; ``batch.action_specification`` declares them. In the plane: target along the
-    robot relative to its centre, in units of the stage's reach; target height between the lowest and
-    the highest; travel speed from 0 to the limit.
+    Actions (N, A) lie in [-1, 1]; ``batch.action_specification`` declares them. In the plane:
+    target along the robot relative to its centre, in units of the stage's reach; target
+    height between the lowest and the highest; travel speed from 0 to the limit.
     """
 
     def start(self, batch: Batch) -> None:

@@ -130,4 +130,4 @@ def _angles(poses: Floats, along: Floats) -> Floats:
     tangent = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * z - w * y)], axis=1) @ along
     pitch = np.arctan2(2.0 * (x * y + w * z), tangent)
     up = np.cos(pitch) * (1.0 - 2.0 * (x * x + z * z))
-    return np.where(up < 0.0, pitch + np.pi, pitch)
+    return np.asarray(np.where(up < 0.0, pitch + np.pi, pitch))
