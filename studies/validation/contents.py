@@ -87,6 +87,10 @@ SECTIONS = (
             "space_spinning_block": "closed form",
             "space_sliding_and_turning": "ODE solved in the test",
             "space_derivatives": "finite differences",
+            "the_wrench_in_a_step_in_space": "converged table; closed forms",
+            "mirror_images_in_space": "symmetry",
+            "turned_scenes_in_space": "symmetry",
+            "presets_in_space": "the planar kernel",
         },
     ),
     Section(
@@ -114,15 +118,6 @@ SECTIONS = (
             "stride_converges_in_the_step": "refined step",
             "stride_in_the_mesh": "refined mesh",
             "stride_in_the_quadrature": "refined quadrature",
-        },
-    ),
-    Section(
-        "In space",
-        "Scenes with `dimensions = 3`.",
-        {
-            "the_wrench_in_a_step_in_space": "converged table; closed forms",
-            "mirror_images_in_space": "symmetry",
-            "turned_scenes_in_space": "symmetry",
         },
     ),
 )

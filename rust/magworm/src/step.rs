@@ -65,7 +65,15 @@ fn in_parts<const W: usize, const D: usize, I: Isa<W>>(
     block.dt_s = model.step_s / parts;
     isa.vectorize(
         #[inline(always)]
-        || contact::divide::<W, D, I>(isa, model, block, isa.load(&divided).gt(isa.splat(0.0)), parts),
+        || {
+            contact::divide::<W, D, I>(
+                isa,
+                model,
+                block,
+                isa.load(&divided).gt(isa.splat(0.0)),
+                parts,
+            )
+        },
     );
     for _ in 0..PARTS {
         motion::<W, D, I>(isa, model, block, false);

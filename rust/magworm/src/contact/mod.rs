@@ -21,9 +21,9 @@ mod points;
 mod settle;
 mod solve;
 
+pub use divide::{divide, join};
 pub use points::detect;
 pub use settle::MEMORY;
-pub use divide::{divide, join};
 pub use solve::{Ground, PATIENCE, solve};
 
 use crate::model::body_size;

@@ -38,7 +38,8 @@ pub(super) fn settle<const W: usize, I: Isa<W>>(
     let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
     let passes = I::F::select(moved, zero, isa.load(&block.remembered[0]));
     let known = [passes.gt(zero), passes.gt(one)];
-    let mut sums = Sums { a11: zero, a12: zero, a22: zero, b1: zero, b2: zero, run: zero, rise: zero };
+    let mut sums =
+        Sums { a11: zero, a12: zero, a22: zero, b1: zero, b2: zero, run: zero, rise: zero };
     for c in 0..model.contacts.len() {
         sums.add(&Point::load(isa, block, c, known));
     }

@@ -355,8 +355,7 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
         let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
         if D == 3 {
             let kept = done | parting;
-            let strays =
-                sliding & veer(isa, ground, block, c, &point, &after, kept).gt(tolerance);
+            let strays = sliding & veer(isa, ground, block, c, &point, &after, kept).gt(tolerance);
             let speed = length::<I::F, D>(point.held) / ground.weight;
             let viscosity = viscosity(isa, ground, block, c, speed);
             let assumed = isa.load(&block.across[4 * c + 2]);
