@@ -24,6 +24,8 @@ pub const PATIENCE: usize = 8;
 /// feet may have no solution of Coulomb's law (the paradox of Painlevé).
 const FROZEN: usize = 14;
 
+/// Sine of the angle by which a direction of sliding may have turned before friction is linearised anew.
+const TURNED: f64 = 0.02;
 /// Adhesion is at most this multiple of the normal impulse. The paper's D_f is there however lightly a point touches
 /// and gone where it does not: where its lever lifts the point, neither holds. So it fades within the last
 /// fraction of a millinewton.
@@ -359,7 +361,10 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
             let speed = length::<I::F, D>(point.held) / ground.weight;
             let viscosity = viscosity(isa, ground, block, c, speed);
             let assumed = isa.load(&block.across[4 * c + 2]);
-            let off = assumed.gt(viscosity * 4.0) | assumed.lt(viscosity * 0.5);
+            let p = load2::<W, 3, I>(isa, &block.across, 4 * c);
+            let off = assumed.gt(viscosity * 2.0)
+                | assumed.lt(viscosity * 0.5)
+                | along::<I::F, 3>(after.slip, p).abs().gt(isa.splat(TURNED));
             change.directions = change.directions | (strays & off & !done);
             unsettled = unsettled | strays;
         }
