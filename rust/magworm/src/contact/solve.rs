@@ -8,8 +8,8 @@
 
 use super::guess::{along, direction, length};
 use super::settle::{forget, settle};
-use super::{Mode, SLOTS, jacobian_rows};
-use crate::elastic::{add_rank_one, add_scaled, rate};
+use super::{MOST_DIRECTIONS, Mode, SLOTS, jacobian_rows};
+use crate::elastic::add_rank;
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::{GroundLaw, Model, body_size};
 use crate::state::Block;
@@ -206,21 +206,28 @@ fn assemble_matrix<const W: usize, const D: usize, I: Isa<W>>(
 ) {
     block.factor.copy_from_slice(&block.matrix);
     let zero = isa.splat(0.0);
-    let mut row = [zero; SLOTS];
+    let (mut rows, mut across) = ([[zero; SLOTS]; MOST_DIRECTIONS], [zero; SLOTS]);
     for (c, contact) in model.contacts.iter().enumerate() {
         let mode = isa.load(&block.mode[c]);
-        let closed = I::F::select(mode.eq(isa.splat(Mode::OPEN)), zero, ground.weight);
-        let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
-        for direction in 0..D {
-            jacobian::<W, D, I>(isa, block, c, direction, &mut row);
-            let weight = if direction == 0 { closed } else { stuck };
-            add_rank_one(isa, &mut block.factor, &contact.stencil, &row, weight);
+        let open = mode.eq(isa.splat(Mode::OPEN));
+        if open.all() {
+            continue;
         }
-        if D == 3 {
-            across_row(isa, block, c, &mut row);
+        let closed = I::F::select(open, zero, ground.weight);
+        let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
+        jacobian::<W, D, I>(isa, block, c, &mut rows);
+        let (matrix, stencil) = (&mut *block.factor, &contact.stencil);
+        if D == 2 {
+            add_rank(isa, matrix, stencil, [&rows[0], &rows[1]], [closed, stuck]);
+        } else {
+            let [x, z] = load2::<W, 3, I>(isa, &block.across, 4 * c);
+            for slot in 0..SLOTS {
+                across[slot] = rows[1][slot] * x + rows[2][slot] * z;
+            }
             let viscosity = isa.load(&block.across[4 * c + 2]);
-            let weight = I::F::select(mode.eq(isa.splat(Mode::SLIDE)), viscosity, zero);
-            add_rank_one(isa, &mut block.factor, &contact.stencil, &row, weight);
+            let slides = I::F::select(mode.eq(isa.splat(Mode::SLIDE)), viscosity, zero);
+            let gradients = [&rows[0][..], &rows[1][..], &rows[2][..], &across[..]];
+            add_rank(isa, matrix, stencil, gradients, [closed, stuck, stuck, slides]);
         }
     }
 }
@@ -234,17 +241,18 @@ fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
 ) {
     block.solution.copy_from_slice(&block.right);
     let zero = isa.splat(0.0);
-    let mut row = [zero; SLOTS];
+    let mut rows = [[zero; SLOTS]; MOST_DIRECTIONS];
     for (c, contact) in model.contacts.iter().enumerate() {
         let mode = isa.load(&block.mode[c]);
         let open = mode.eq(isa.splat(Mode::OPEN));
+        if open.all() {
+            continue;
+        }
         let stuck = mode.eq(isa.splat(Mode::STICK));
         let held = isa.load(&block.warm[D * c]) - ground.weight * isa.load(&block.approach[c]);
         let coefficient = isa.load(&block.coefficient[c]);
         let friction = ground.friction(coefficient, isa.load(&block.reckoned[c]));
-        jacobian::<W, D, I>(isa, block, c, 0, &mut row);
-        let impulse = I::F::select(open, zero, held);
-        add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
+        let mut impulses = [I::F::select(open, zero, held); MOST_DIRECTIONS];
         for t in 0..D - 1 {
             let mut sliding = -(friction * isa.load(&block.slip[(D - 1) * c + t]));
             if D == 3 {
@@ -253,41 +261,34 @@ fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
                 sliding = sliding + across * isa.load(&block.across[4 * c + t]);
             }
             let warm = isa.load(&block.warm[D * c + 1 + t]);
-            let impulse = I::F::select(open, zero, I::F::select(stuck, warm, sliding));
-            jacobian::<W, D, I>(isa, block, c, 1 + t, &mut row);
-            add_scaled(isa, &mut block.solution, &contact.stencil, &row, impulse);
+            impulses[1 + t] = I::F::select(open, zero, I::F::select(stuck, warm, sliding));
+        }
+        jacobian::<W, D, I>(isa, block, c, &mut rows);
+        for slot in 0..contact.stencil.count {
+            let entry = &mut block.solution[contact.stencil.dofs[slot]];
+            let mut sum = isa.load(entry);
+            for direction in 0..D {
+                sum = sum + rows[direction][slot] * impulses[direction];
+            }
+            isa.store(sum, entry);
         }
     }
 }
 
+/// The rows of a contact's Jacobian: normal, then along x, in space along z.
 #[inline(always)]
 fn jacobian<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     block: &Block<W>,
     contact: usize,
-    direction: usize,
-    row: &mut [I::F; SLOTS],
+    rows: &mut [[I::F; SLOTS]; MOST_DIRECTIONS],
 ) {
-    let first = jacobian_rows(D) * contact + body_size(D) * direction;
-    let rows = &block.jacobian[first..first + body_size(D)];
-    for slot in 0..body_size(D) {
-        row[slot] = isa.load(&rows[slot]);
-    }
-}
-
-/// Jacobian of the velocity across the direction of sliding.
-#[inline(always)]
-fn across_row<const W: usize, I: Isa<W>>(
-    isa: I,
-    block: &Block<W>,
-    contact: usize,
-    row: &mut [I::F; SLOTS],
-) {
-    let first = jacobian_rows(3) * contact + SLOTS;
-    let rows = &block.jacobian[first..first + 2 * SLOTS];
-    let [x, z] = load2::<W, 3, I>(isa, &block.across, 4 * contact);
-    for slot in 0..SLOTS {
-        row[slot] = isa.load(&rows[slot]) * x + isa.load(&rows[SLOTS + slot]) * z;
+    let first = jacobian_rows(D) * contact;
+    let stored = &block.jacobian[first..first + jacobian_rows(D)];
+    for direction in 0..D {
+        for slot in 0..body_size(D) {
+            rows[direction][slot] = isa.load(&stored[body_size(D) * direction + slot]);
+        }
     }
 }
 
@@ -478,13 +479,20 @@ impl<F: Real> Point<F> {
         frozen: bool,
     ) -> Self {
         let stencil = &model.contacts[c].stencil;
-        let mut row = [isa.splat(0.0); SLOTS];
-        jacobian::<W, D, I>(isa, block, c, 0, &mut row);
-        let u_n = rate(isa, &block.next, stencil, &row) + isa.load(&block.approach[c]);
-        let (mut u_t, mut held) = ([isa.splat(0.0); 2], [isa.splat(0.0); 2]);
+        let zero = isa.splat(0.0);
+        let mut rows = [[zero; SLOTS]; MOST_DIRECTIONS];
+        jacobian::<W, D, I>(isa, block, c, &mut rows);
+        let mut u = [zero; MOST_DIRECTIONS];
+        for slot in 0..stencil.count {
+            let velocity = isa.load(&block.next[stencil.dofs[slot]]);
+            for direction in 0..D {
+                u[direction] = u[direction] + rows[direction][slot] * velocity;
+            }
+        }
+        let u_n = u[0] + isa.load(&block.approach[c]);
+        let (mut u_t, mut held) = ([zero; 2], [zero; 2]);
         for t in 0..D - 1 {
-            jacobian::<W, D, I>(isa, block, c, 1 + t, &mut row);
-            u_t[t] = rate(isa, &block.next, stencil, &row);
+            u_t[t] = u[1 + t];
             held[t] = isa.load(&block.warm[D * c + 1 + t]) - ground.weight * u_t[t];
         }
         let normal = isa.load(&block.warm[D * c]) - ground.weight * u_n;
