@@ -17,14 +17,16 @@
 
 mod divide;
 mod guess;
+mod law;
 mod points;
 mod settle;
 mod solve;
 
 pub use divide::{divide, join};
+pub use law::Ground;
 pub use points::detect;
 pub use settle::MEMORY;
-pub use solve::{Ground, PATIENCE, solve};
+pub use solve::{PATIENCE, solve};
 
 use crate::model::body_size;
 
