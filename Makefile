@@ -21,7 +21,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo validate paper identify test bench wheel lint format docs clean install \
+.PHONY: help demo validate paper turning-map identify test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -35,6 +35,9 @@ validate: install-train need-cargo  ## compare the simulator with exact solution
 
 paper: install-test  ## simulate the paper's experiments again: docs/paper.md beside its figures
 	$(VENV_PYTHON) -m studies.paper
+
+turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
+	$(VENV_PYTHON) -m studies.turning
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
 

@@ -1,0 +1,105 @@
+"""The planar presets in space: the same scenes with a third dimension, beside the plane."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from magworm_gym import Recording, Scene, record_scenes
+from studies.paper.lift import HOLD_S, LOW_M, RISE_S
+from studies.paper.scenes import PASS_S, PLANE_M, one_pass, under_middle, values_of
+from studies.turning.passes import MM, rolls_deg
+
+PRESETS = ("paper-3", "paper-4", "paper-5", "paper-3-experiment")
+BELT, BELT_PERIOD_S = "belt-125", 1.25
+ASIDE_MM = 0.01
+"""Ours: a drive that is not quite on the line; on it nothing rolls, stable or not."""
+SAMPLE_S = 0.002
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One figure of one preset in the plane and in space.
+
+    Attributes:
+        preset: Its name.
+        case: "lift", "pass" or "belt".
+        figure: "lift", "peak" or "stride".
+        plane_mm: In the plane [mm].
+        space_mm: In space, drive on the line [mm].
+        apart_mm: Greatest distance of a magnet from its planar place at any time [mm].
+        roll_deg: Greatest roll of any foot at any time, drive on the line [°].
+        aside_mm: The figure with the drive 0.01 mm beside the line [mm].
+        aside_roll_deg: Greatest roll then [°].
+    """
+
+    preset: str
+    case: str
+    figure: str
+    plane_mm: float
+    space_mm: float
+    apart_mm: float
+    roll_deg: float
+    aside_mm: float
+    aside_roll_deg: float
+
+    @property
+    def difference(self) -> float:
+        """Space over plane, less 1."""
+        return self.space_mm / self.plane_mm - 1.0
+
+
+def comparisons() -> list[Comparison]:
+    """Runs all cases in the plane, in space, and in space with the drive beside the line."""
+    cases = [
+        case
+        for preset in PRESETS
+        for case in (
+            (preset, "lift", _lift(Scene.preset(preset)), RISE_S + HOLD_S),
+            (preset, "pass", one_pass(Scene.preset(preset)), PASS_S),
+        )
+    ]
+    cases.append((BELT, "belt", Scene.preset(BELT), BELT_PERIOD_S))
+    scenes = [
+        scene for _, _, flat, _ in cases for scene in (flat, in_space(flat, 0.0), in_space(flat, ASIDE_MM))
+    ]
+    durations = [duration for *_, duration in cases for _ in range(3)]
+    records = record_scenes(scenes, durations, SAMPLE_S, nodes=False)
+    return [
+        comparison
+        for i, (preset, case, _, _) in enumerate(cases)
+        for comparison in _compared(preset, case, *records[3 * i : 3 * i + 3])
+    ]
+
+
+def in_space(flat: Scene, aside_mm: float) -> Scene:
+    """A planar scene in space, its drive beside the line by so much [mm]."""
+    motion: dict[str, Any] = dict(values_of(flat)["drive"]["motion"])
+    waypoints = motion["kind"] == "waypoints"
+    motion["z_m"] = [aside_mm / MM] * len(motion["time_s"]) if waypoints else aside_mm / MM
+    return flat.with_values({"dimensions": 3, "drive.motion": motion})
+
+
+def _lift(scene: Scene) -> Scene:
+    return under_middle(scene, [0.0, RISE_S], [LOW_M, PLANE_M])
+
+
+def _compared(
+    preset: str, case: str, plane: Recording, space: Recording, aside: Recording
+) -> list[Comparison]:
+    def one(figure: str) -> Comparison:
+        plane_mm, space_mm, aside_mm = (_figure(figure, record) for record in (plane, space, aside))
+        rolls = [float(np.abs(rolls_deg(record.magnet_poses[..., 3:])).max()) for record in (space, aside)]
+        away = space.magnet_poses[..., :3] - np.pad(plane.magnet_poses[..., :2], ((0, 0), (0, 0), (0, 1)))
+        apart = MM * float(np.linalg.norm(away, axis=-1).max())
+        return Comparison(preset, case, figure, plane_mm, space_mm, apart, rolls[0], aside_mm, rolls[1])
+
+    return [one(figure) for figure in (("lift",) if case == "lift" else ("peak", "stride"))]
+
+
+def _figure(figure: str, record: Recording) -> float:
+    """Lift at the end or its peak, of the magnet that rises furthest, or the robot's stride [mm]."""
+    if figure == "stride":
+        return MM * float(record.progress_m[-1])
+    lift = MM * (record.magnet_poses[..., 1] - record.magnet_poses[:1, :, 1])
+    return float(lift.max() if figure == "peak" else lift[-1].max())
