@@ -89,7 +89,11 @@ def page(
     parts += [
         "\n## Roll and tipping over\n",
         _roll_text(sweeps["offset"]),
-        _image("roll", "Greatest roll of each foot in a pass against the offset, mean of neighbours."),
+        _image(
+            "roll",
+            "Greatest roll of each foot in a pass against the offset, mean of neighbours; what is beyond 95° "
+            "is drawn at 95°.",
+        ),
         "\n" + _tipping_text(drives, tipping),
         _image(
             "tipping",
@@ -147,15 +151,15 @@ def _estimate(points: Sequence[Point]) -> str:
     changes = near and far and max(p.side_mm.mean for p in far) < min(p.side_mm.mean for p in near)
     rolls = [float(point.roll_deg.max()) for point in three]
     grows = all(after >= before - EVEN_DEG for before, after in pairwise(rolls))
-    regime = ": another regime, in which it steps away from the drive and crawls less far. "
+    regime = ": another regime, in which they step away from the drive and crawl less far. "
     return (
         "An independent estimate with rigid links gave three magnets 0.5° to 3° a pass at 2 to 4 mm, another "
         "regime beyond 8 mm, and a roll that grows with the offset. Here three magnets make at 2 to 4 mm "
         f"{words['near']}: {'within' if inside else '**not within**'} the estimate. At 8 to 15 mm they make "
         f"{words['far']}{regime if changes else '. '}"
         f"The greatest roll {'grows' if grows else 'does not grow throughout'} with the offset, from "
-        f"{number(rolls[0], 1)}° on the line to {number(rolls[4], 1)}° at 4 mm, {number(rolls[8], 1)}° at 8 mm "
-        f"and {number(rolls[-1], 1)}° at {three[-1].drive.offset_mm:g} mm.\n\n{_others(points)} "
+        f"{number(rolls[0], 1)}° on the line to {number(rolls[4], 1)}° at 4 mm, {number(rolls[8], 1)}° at 8 "
+        f"mm and {number(rolls[-1], 1)}° at {three[-1].drive.offset_mm:g} mm.\n\n{_others(points)} "
         f"{_rugged(points)}"
     )
 
@@ -169,8 +173,8 @@ def _others(points: Sequence[Point]) -> str:
     if away:
         most = min(away, key=lambda point: point.yaw_deg.mean)
         sentences.append(
-            f"At {_offsets([point.drive.offset_mm for point in away])} they turn away from the drive, by up to "
-            f"{number(-most.yaw_deg.mean, 1)}° at {most.drive.offset_mm:g} mm."
+            f"At {_offsets([point.drive.offset_mm for point in away])} they turn away from the drive, by up "
+            f"to {number(-most.yaw_deg.mean, 1)}° at {most.drive.offset_mm:g} mm."
         )
     four = [point.drive.offset_mm for point in _of(points, 4) if not point.kept]
     if four:
@@ -218,8 +222,8 @@ def _offset_table(points: Sequence[Point]) -> str:
             row += [number(float(point.roll_deg.max()), 1), f"{point.passes - point.kept} of {point.passes}"]
         rows.append(row)
     return (
-        "Three and five magnets; ± is half the range of the neighbours; roll is the greatest of any foot, mean "
-        "of all neighbours:\n\n" + table(header, rows)
+        "Three and five magnets; ± is half the range of the neighbours; roll is the greatest of any foot, "
+        "mean of all neighbours:\n\n" + table(header, rows)
     )
 
 
@@ -281,8 +285,8 @@ def _range_text(points: Sequence[Point], field: str, unit: str) -> str:
         far = max(good, key=lambda point: point.stride_mm.mean)
         at, stride_at = (f"{getattr(p.drive, field):g}".replace("-", "−") for p in (best, far))
         lines.append(
-            f"- {capital(COUNTS[count])} magnets: the greatest turn is {_cell(best.yaw_deg)}° at {at} {unit}, "
-            f"the longest stride {_cell(far.stride_mm)} mm at {stride_at} {unit}"
+            f"- {capital(COUNTS[count])} magnets: the greatest turn is {_cell(best.yaw_deg)}° at {at} "
+            f"{unit}, the longest stride {_cell(far.stride_mm)} mm at {stride_at} {unit}"
             f"{_left_out(here, field, unit)}."
         )
     return f"At {OFFSET_MM:g} mm beside the line:\n\n" + "\n".join(lines)
@@ -306,8 +310,8 @@ def _roll_text(points: Sequence[Point]) -> str:
             end += f", and comes back by itself at {_offsets(back)}" if back else "; none comes back"
         lines.append(f"- {capital(COUNTS[count])} magnets: {end}.")
     return (
-        "Every second foot, from the second on, is repelled by the drive and held up by the bridges on either "
-        "side of it alone; the others are drawn to the ground.\n\n" + "\n".join(lines)
+        "Every second foot, from the second on, is repelled by the drive and kept from rolling by its "
+        "bridges alone; the others are drawn to the ground.\n\n" + "\n".join(lines)
     )
 
 
@@ -336,11 +340,12 @@ def _tipping_text(drives: Sequence[Drive], found: Sequence[Outcome]) -> str:
     )
     return (
         f"*Upright margin.* A drive {small:g} mm beside the line is a small perturbation. Where the robot is "
-        "upright in a stable way, the roll that it leaves is small, in proportion to the offset; elsewhere roll "
-        "is amplified until the drive has gone or the robot lies over. It is amplified, to more than "
-        f"{AMPLIFIED:g} times its share of that at {UNIT_MM:g} mm or to tipping: {where}. The smallest offset at "
-        "which a foot tips lies between the two that are given. Single passes, without neighbours; a robot "
-        "that tips at one offset need not at every greater one, as the map shows.\n\n" + table(header, rows)
+        "upright in a stable way, the roll that it leaves is small, in proportion to the offset; elsewhere "
+        "roll is amplified until the drive has gone or the robot lies over. It is amplified, to more than "
+        f"{AMPLIFIED:g} times its share of that at {UNIT_MM:g} mm or to tipping: {where}. The smallest "
+        "offset at which a foot tips lies between the two that are given. Single passes, without neighbours; "
+        "a robot that tips at one offset need not at every greater one, as the map shows.\n\n"
+        + table(header, rows)
     )
 
 
@@ -423,11 +428,12 @@ def _plane_text(comparisons: Sequence[Comparison]) -> str:
     ]
     header += [f"{ASIDE_MM:g} mm aside, mm", "roll, °"]
     return (
-        "The planar presets with `dimensions = 3` and the drive on the line. Lift: the drive rises from −52 to "
-        "−22 mm in 0.5 s under the middle and stands for 0.3 s. Pass: 1.5 s at 100 mm/s from 50 mm ahead. Belt: "
-        "one period. Lift and peak are of the magnet that rises furthest. *Apart* is the greatest distance of "
-        "any magnet from its planar place at any time; it is beyond rounding where a foot slips in the one and "
-        "not in the other. On the line roll stays that of rounding, also where it would be amplified; so the "
+        "The planar presets with `dimensions = 3` and the drive on the line. Lift: the drive rises from −52 "
+        "to −22 mm in 0.5 s under the middle and stands for 0.3 s. Pass: 1.5 s at 100 mm/s from 50 mm ahead. "
+        "Belt: one period. Lift and peak are of the magnet that rises furthest. *Apart* is the greatest "
+        "distance of any magnet from its planar place at any time; it is beyond rounding where a foot slips "
+        "in the one and not in the other. On the line roll stays that of rounding, also where it would be "
+        "amplified; so the "
         f"last two columns have the drive {ASIDE_MM:g} mm beside it. {within} of {len(comparisons)} figures "
         "agree within 1 %. The greatest roll with the drive hardly aside is "
         f"{number(most.aside_roll_deg, 2)}°, of `{most.preset}`.\n\n" + table(header, rows)

@@ -18,6 +18,10 @@ MEASURES: tuple[tuple[str, Callable[[Point], Spread]], ...] = (
     ("side-step per pass [mm]", lambda point: point.side_mm),
     ("stride per pass [mm]", lambda point: point.stride_mm),
 )
+SHADES = ("#1f6f8b", "#c97a1e", "#7a5ca8", "#b03a48", "#3b7d3a")
+"""Feet from the head on."""
+OVER_DEG = 95.0
+"""Where a foot is drawn that lies over: how far beyond 90° means nothing."""
 LEVELS_DEG = (0.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0, 50.0, 60.0, 180.0)
 
 
@@ -28,6 +32,7 @@ def per_pass(points: Sequence[Point], against: Callable[[Drive], float], label: 
         _curves(axis, points, against, measure)
         axis.set_xlabel(label)
         axis.set_ylabel(name)
+        axis.xaxis.set_major_locator(MaxNLocator(8, steps=(1, 2, 3, 5), integer=True))
     legend_above(figure, axes[0], 4)
     return figure
 
@@ -87,7 +92,7 @@ def roll_against_offset(points: Sequence[Point]) -> Any:
             for place in range(first, count, 2):
                 axis.plot(
                     offsets,
-                    [point.roll_deg[place] for point in here],
+                    [min(point.roll_deg[place], OVER_DEG) for point in here],
                     color=SHADES[place],
                     ls=line,
                     marker=marker,
@@ -99,14 +104,11 @@ def roll_against_offset(points: Sequence[Point]) -> Any:
         axis.set_title(f"{capital(COUNTS[count])} magnets", fontsize=9)
         axis.set_xlabel("offset of the drive [mm]")
         axis.set_xticks(range(0, 16, 3))
-        axis.set_ylim(-4.0, 188.0)
-        axis.set_yticks(range(0, 181, 30))
+        axis.set_ylim(-3.0, OVER_DEG + 3.0)
+        axis.set_yticks(range(0, 91, 15))
     axes[0].set_ylabel("greatest roll in the pass [°]")
     legend_above(figure, axes[-1], 5)
     return figure
-
-
-SHADES = ("#1f6f8b", "#c97a1e", "#7a5ca8", "#b03a48", "#3b7d3a")
 
 
 def tipping_map(drives: Sequence[Drive], found: Sequence[Outcome]) -> Any:
@@ -123,7 +125,7 @@ def tipping_map(drives: Sequence[Drive], found: Sequence[Outcome]) -> Any:
         rows, columns = np.nonzero(np.array(ends).reshape(grid.shape))
         axis.plot(columns, rows, "x", color="white", ms=4.0)
         axis.grid(False)
-        axis.set_xticks(range(len(TIPPING_OFFSETS_MM)), [f"{o:g}" for o in TIPPING_OFFSETS_MM], fontsize=8)
+        axis.set_xticks(range(len(TIPPING_OFFSETS_MM)), [f"{o:g}" for o in TIPPING_OFFSETS_MM], fontsize=7)
         axis.set_yticks(range(len(HEIGHTS_MM)), [f"{h:g}".replace("-", "−") for h in HEIGHTS_MM])
         axis.set_title(f"{capital(COUNTS[count])} magnets", fontsize=9)
         axis.set_xlabel("offset of the drive [mm]")
