@@ -1,8 +1,10 @@
-"""Environment steps per second, beside the stride error of the step they are taken with.
+"""Environment steps per second, beside the errors of the step they are taken with, in the plane and in space.
 
-Prints a table and writes JSON: the native vector environment, eight lanes and one, on all cores and on
-one, each the median of several runs after a warm-up; and the stride of one pass of the drive at the
-preset's solver step against the mean over steps twenty to forty times shorter.
+Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
+(space), eight lanes and one, on all cores and on one, each the median of several runs after a warm-up;
+and what one pass of the drive gives at the preset's solver step against steps twenty to forty times
+shorter: the stride, and in space, with the drive 3 mm aside, stride and yaw as means over neighbouring
+heights, since stick and slip make a single pass rugged.
 
     python studies/throughput.py --out runs/bench/throughput.json
 """
@@ -25,12 +27,13 @@ ENVIRONMENTS = 256
 CONTROL_STEPS = 50
 SHORT_STEPS_S = (1e-4, 8e-5, 6.25e-5, 5e-5)
 PASS_DURATION_S = 1.5
+NEIGHBOURS_M = tuple(-0.022 + 1e-4 * k for k in range(-2, 3))
 
 
-def steps_per_second(scene: str, lanes: str, threads: int | None, repetitions: int) -> list[float]:
+def steps_per_second(task: str, scene: str, lanes: str, threads: int | None, repetitions: int) -> list[float]:
     """Environment steps per second of each repetition, random actions."""
     environment: Any = gymnasium.make_vec(
-        "MagWorm/Crawl-v0", num_envs=ENVIRONMENTS, scene=scene, lanes=lanes, threads=threads
+        task, num_envs=ENVIRONMENTS, scene=scene, lanes=lanes, threads=threads
     )
     environment.reset(seed=0)
     environment.action_space.seed(0)
@@ -60,34 +63,101 @@ def stride_mm(scene: str, step_s: float | None) -> float:
     return float(start - batch.magnet_poses()[0, :, 0].mean()) * 1e3
 
 
-def measure(scene: str, repetitions: int) -> dict[str, Any]:
-    """All figures of one scene."""
-    cases = {
+def turning(step_s: float | None) -> tuple[float, float]:
+    """Stride [mm] and yaw [°] of a pass 3 mm aside, means over neighbouring heights of the drive."""
+    scenes = []
+    for height_m in NEIGHBOURS_M:
+        motion = {
+            "kind": "constant",
+            "x_m": -0.05,
+            "y_m": height_m,
+            "z_m": 0.003,
+            "speed_m_s": 0.1,
+        }
+        changes: dict[str, Any] = {"dimensions": 3, "drive.motion": motion}
+        if step_s is not None:
+            changes["solver.step_s"] = step_s
+        scenes.append(Scene.preset("paper-3").with_values(changes))
+    strides, yaws = [], []
+    for scene in scenes:
+        batch = Batch(scene, 1, lanes="scalar", threads=1)
+        zero = np.zeros(1, np.uint64)
+        batch.reset(np.ones(1, bool), zero, zero)
+        start = batch.robot_poses()[0]
+        batch.advance(PASS_DURATION_S)
+        end = batch.robot_poses()[0]
+        strides.append(1e3 * float(start[0] - end[0]))
+        yaws.append(float(np.degrees(end[2] - start[2])))
+    return statistics.mean(strides), statistics.mean(yaws)
+
+
+def rates(task: str, scene: str, repetitions: int) -> dict[str, list[float]]:
+    """Environment steps per second of the three ways to run, each repetition."""
+    cases: dict[str, tuple[str, int | None]] = {
         "eight lanes, all cores": ("wide", None),
         "eight lanes, one core": ("wide", 1),
         "one lane, all cores": ("scalar", None),
     }
-    rates = {name: steps_per_second(scene, *case, repetitions) for name, case in cases.items()}
-    strides = [stride_mm(scene, step) for step in SHORT_STEPS_S]
-    converged = statistics.mean(strides)
-    stride = stride_mm(scene, None)
+    return {name: steps_per_second(task, scene, *case, repetitions) for name, case in cases.items()}
+
+
+def summary(scene: str, measured: dict[str, list[float]]) -> dict[str, Any]:
+    """What both dimensions report about their speed."""
     return {
         "scene": scene,
         "environments": ENVIRONMENTS,
         "control_step_s": Scene.preset(scene).control_step_s,
         "cores": os.cpu_count(),
         "processor": platform.processor() or platform.machine(),
-        "steps_per_second": {name: statistics.median(values) for name, values in rates.items()},
-        "steps_per_second_range": {name: [min(v), max(v)] for name, v in rates.items()},
+        "steps_per_second": {name: statistics.median(values) for name, values in measured.items()},
+        "steps_per_second_range": {name: [min(v), max(v)] for name, v in measured.items()},
+    }
+
+
+def measure(scene: str, repetitions: int) -> dict[str, Any]:
+    """All figures of a scene in the plane, and of the task to turn in space."""
+    strides = [stride_mm(scene, step) for step in SHORT_STEPS_S]
+    converged = statistics.mean(strides)
+    stride = stride_mm(scene, None)
+    plane = summary(scene, rates("MagWorm/Crawl-v0", scene, repetitions)) | {
         "stride_mm": stride,
         "stride_converged_mm": converged,
         "stride_converged_range_mm": [min(strides), max(strides)],
         "stride_error": abs(stride / converged - 1),
     }
+    (stride, yaw), (fine_stride, fine_yaw) = turning(None), turning(SHORT_STEPS_S[0])
+    space = summary("turn-3", rates("MagWorm/Turn-v0", "turn-3", repetitions)) | {
+        "stride_mm": stride,
+        "stride_converged_mm": fine_stride,
+        "stride_error": abs(stride / fine_stride - 1),
+        "yaw_deg": yaw,
+        "yaw_converged_deg": fine_yaw,
+        "yaw_error": abs(yaw / fine_yaw - 1),
+    }
+    return plane | {"space": space}
 
 
 def table(result: dict[str, Any]) -> str:
     """The figures as text."""
+    low, high = result["stride_converged_range_mm"]
+    space = result["space"]
+    return "\n".join(
+        [
+            *speeds(result),
+            f"stride of one pass {result['stride_mm']:.3f} mm; converged"
+            f" {result['stride_converged_mm']:.3f} ({low:.3f} to {high:.3f}) mm;"
+            f" error {100 * result['stride_error']:.2f} %",
+            *speeds(space),
+            f"stride of a pass 3 mm aside {space['stride_mm']:.3f} mm; converged"
+            f" {space['stride_converged_mm']:.3f} mm; error {100 * space['stride_error']:.2f} %",
+            f"yaw of it {space['yaw_deg']:.3f}°; converged {space['yaw_converged_deg']:.3f}°;"
+            f" error {100 * space['yaw_error']:.2f} %",
+        ]
+    )
+
+
+def speeds(result: dict[str, Any]) -> list[str]:
+    """Lines about the speed of a scene."""
     lines = [
         f"{result['scene']}, {result['environments']} environments, control step"
         f" {result['control_step_s']} s, {result['cores']} cores",
@@ -95,12 +165,7 @@ def table(result: dict[str, Any]) -> str:
     for name, rate in result["steps_per_second"].items():
         low, high = result["steps_per_second_range"][name]
         lines.append(f"{name:<24}{rate:>10,.0f} environment steps/s ({low:,.0f} to {high:,.0f})")
-    low, high = result["stride_converged_range_mm"]
-    lines.append(
-        f"stride of one pass {result['stride_mm']:.3f} mm; converged {result['stride_converged_mm']:.3f}"
-        f" ({low:.3f} to {high:.3f}) mm; error {100 * result['stride_error']:.2f} %"
-    )
-    return "\n".join(lines)
+    return lines
 
 
 def main() -> None:
