@@ -115,7 +115,7 @@ type Edits = &'static [(&'static str, &'static str)];
 
 /// Until when rounding alone may drive the runs apart [instants], and how far [m].
 const EARLY: usize = 10;
-const EARLY_BAND_M: f64 = 1e-8;
+const EARLY_BAND_M: f64 = 1e-7;
 /// How far they may be apart at the end [m]: where a foot just sticks or just does not, rounding decides, and a
 /// stride of 3 mm jumps by a fraction of itself.
 const LATE_BAND_M: f64 = 2e-3;
