@@ -149,6 +149,8 @@ fn solve<const W: usize, const D: usize, I: Isa<W>>(
                 isa.store(I::F::select(unsettled, one, zero), &mut block.divided[0]);
             },
         );
+    } else {
+        contact::hold::<W, D, I>(isa, model, &ground, block);
     }
 }
 

@@ -26,7 +26,7 @@ pub use divide::{divide, join};
 pub use law::Ground;
 pub use points::detect;
 pub use settle::MEMORY;
-pub use solve::{PATIENCE, solve};
+pub use solve::{PATIENCE, hold, solve};
 
 use crate::model::body_size;
 

@@ -24,6 +24,8 @@ pub const PATIENCE: usize = 8;
 /// Passes from which on friction reckons with the impulses that it has: what is left is a convex problem. Rigid
 /// feet may have no solution of Coulomb's law (the paradox of Painlevé).
 const FROZEN: usize = 14;
+/// Relative change of a reckoned normal impulse beyond which friction is no longer that of the point.
+const FAR: f64 = 0.5;
 
 /// Sine of the angle by which a direction of sliding may have turned before friction is linearised anew.
 const TURNED: f64 = 0.02;
@@ -52,11 +54,14 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
 ) -> I::M {
     let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
     let mut stale = !done;
+    block.wild.fill([0.0; W]);
     forget(isa, block);
     for pass in 0..passes {
         let refactor = stale.any();
         solve_assumed::<W, D, I>(isa, model, ground, block, done, refactor.then_some(stale));
         let change = judge::<W, D, I>(isa, model, ground, block, done, pass);
+        let wild = I::F::select(change.wild, isa.splat(1.0), isa.splat(0.0));
+        store_unless(isa, done, wild, &mut block.wild[0]);
         done = done | !(change.modes | change.impulses);
         stale = (change.modes | change.directions) & !done;
         if done.all() {
@@ -64,6 +69,37 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
         }
     }
     !done
+}
+
+/// Where friction was frozen at an impulse that is far from the one found, or drives a point, what is closed
+/// sticks in this step. That is a projection, which only takes energy.
+pub fn hold<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+) {
+    isa.vectorize(
+        #[inline(always)]
+        || {
+            let wild = isa.load(&block.wild[0]).eq(isa.splat(1.0));
+            if wild.any() {
+                stick(isa, model, block, !wild);
+                solve_assumed::<W, D, I>(isa, model, ground, block, !wild, Some(wild));
+                judge::<W, D, I>(isa, model, ground, block, !wild, 0);
+            }
+        },
+    );
+}
+
+/// What is closed sticks.
+#[inline(always)]
+fn stick<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, done: I::M) {
+    let (open, stuck) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
+    for c in 0..model.contacts.len() {
+        let mode = isa.load(&block.mode[c]);
+        store_unless(isa, done, I::F::select(mode.eq(open), open, stuck), &mut block.mode[c]);
+    }
 }
 
 /// Solves under the modes as they are assumed; `stale`: lanes whose matrix has changed, if any has.
@@ -145,6 +181,8 @@ struct Change<M> {
     impulses: M,
     /// A sliding point has another velocity than friction was linearised about.
     directions: M,
+    /// Frozen friction of a sliding point is far from its normal impulse, or drives it.
+    wild: M,
 }
 
 #[inline(always)]
@@ -265,7 +303,7 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
 ) -> Change<I::M> {
     let zero = isa.splat(0.0);
     let never = zero.lt(zero);
-    let mut change = Change { modes: never, impulses: never, directions: never };
+    let mut change = Change { modes: never, impulses: never, directions: never, wild: never };
     let frozen = pass >= FROZEN;
     let parting =
         if pass < PATIENCE { never } else { parting::<W, D, I>(isa, model, ground, block, frozen) };
@@ -277,6 +315,12 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
         let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
         let drift = (after.normal - point.reckoned).abs();
         let tolerance = after.normal * SETTLED + ground.negligible;
+        if frozen {
+            let slid = point.mode.eq(isa.splat(Mode::SLIDE));
+            let far = drift.gt(point.reckoned * FAR + ground.negligible);
+            let driven = along::<I::F, D>(point.u_t, point.slip).lt(-ground.transition_speed);
+            change.wild = change.wild | (slid & (far | driven));
+        }
         let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
         if D == 3 {
             let kept = done | parting;

@@ -163,6 +163,8 @@ pub struct Block<const W: usize> {
     /// In space the direction across it that friction is linearised along, its viscosity [kg] and the velocity
     /// that it is linearised about [m/s], shape [contacts × 4].
     pub across: Rows<W>,
+    /// 1 where friction runs away, see [`crate::contact::hold`], shape [1].
+    pub wild: Rows<W>,
     /// 1 where a lane takes this step in parts, shape [1].
     pub divided: Rows<W>,
     /// The time step in force [s]: the scene's, or a part of it.
@@ -221,6 +223,7 @@ impl<const W: usize> Block<W> {
             slip: zeros((dimensions - 1) * contacts),
             speed: in_space(contacts),
             across: in_space(4 * contacts),
+            wild: zeros(1),
             divided: zeros(1),
             dt_s: model.step_s,
             counters: Counters::default(),
