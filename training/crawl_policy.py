@@ -35,8 +35,12 @@ class LearnedController:
         """Nothing to prepare: the policy has no memory."""
 
     def act(self, batch: Batch) -> NDArray[np.float64]:
-        """Actions (N, 3) for what the batch shows now."""
-        observations = (batch.observe() - self._mean) / self._deviation
+        """Actions (N, A) for what the batch shows now."""
+        return self.answer(batch.observe())
+
+    def answer(self, observations: NDArray[np.float32]) -> NDArray[np.float64]:
+        """Actions (N, A) for observations (N, O), those of the task included."""
+        observations = (observations - self._mean) / self._deviation
         observations = np.clip(observations, -self._clip, self._clip).astype(np.float32)
         actions, _ = self._model.predict(observations, deterministic=True)
         return np.asarray(actions, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Training of crawl policies with Stable-Baselines3."""
+"""Training of policies with Stable-Baselines3."""
 
 import json
 import time
@@ -24,7 +24,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.utils import LinearSchedule, set_random_seed
 from stable_baselines3.common.vec_env import VecEnv, VecNormalize
-from training_settings import TrainingSettings
+from training_settings import UNITS, TrainingSettings
 
 from magworm_gym import Scene
 
@@ -34,6 +34,7 @@ POLICY = "policy"
 FINISHED = "finished.json"
 CHECKPOINTS = "checkpoints"
 CURVE_POINTS = 100
+CURVE_TITLES = {"crawl": "crawl/speed_mm_s", "turn": "turn/deg_s", "reach": "reach/speed_mm_s"}
 # Seeds of environments follow each other, so those of two trainings must lie far apart.
 SEED_STRIDE = 1_000_003
 
@@ -140,13 +141,13 @@ def _learn(settings: TrainingSettings, scene: Scene, trainee: Trainee, folder: P
     model.set_logger(configure(str(folder / "tensorboard"), ["tensorboard"]))
     stretch = max(settings.steps // CURVE_POINTS, 1)
     callbacks = [
-        LearningCurve(trainee.curve, scene.control_step_s, stretch),
+        LearningCurve(trainee.curve, scene.control_step_s, stretch, CURVE_TITLES[settings.task]),
         Checkpoints(
             lambda: save_checkpoint(folder / CHECKPOINTS, trainee),
             settings.checkpoint_steps,
             model.num_timesteps,
         ),
-        Bar(folder.name, settings.steps, trainee.curve, row),
+        Bar(folder.name, settings.steps, trainee.curve, row, UNITS[settings.task]),
     ]
     fresh = model.num_timesteps == 0
     model.learn(left, callbacks, reset_num_timesteps=fresh)

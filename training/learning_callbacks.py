@@ -14,19 +14,24 @@ TENTHS = 10
 
 
 class LearningCurve(BaseCallback):
-    """Notes the mean crawling speed of the exploring policy over stretches of steps.
+    """Notes the mean reward per second of the exploring policy over stretches of steps.
 
     Args:
-        curve: Points are added to it: environment steps, speed [m/s].
+        curve: Points are added to it: environment steps, a thousandth of the reward per second, so that
+            a task rewarded in millimetres has its speed [m/s]; turning has thousands of degrees per second.
         control_step_s: Duration of a step [s].
         stretch: Environment steps that share one point.
+        title: Name of the value in TensorBoard.
     """
 
-    def __init__(self, curve: Curve, control_step_s: float, stretch: int) -> None:
+    def __init__(
+        self, curve: Curve, control_step_s: float, stretch: int, title: str = "crawl/speed_mm_s"
+    ) -> None:
         super().__init__()
         self._curve = curve
         self._control_step_s = control_step_s
         self._stretch = stretch
+        self._title = title
         self._progress_mm = 0.0
         self._steps = 0
 
@@ -43,7 +48,7 @@ class LearningCurve(BaseCallback):
             return
         speed_m_s = self._progress_mm / MM_PER_M / self._steps / self._control_step_s
         self._curve.append((self.num_timesteps, speed_m_s))
-        self.logger.record("crawl/speed_mm_s", MM_PER_M * speed_m_s)
+        self.logger.record(self._title, MM_PER_M * speed_m_s)
         self._progress_mm, self._steps = 0.0, 0
 
 
@@ -85,14 +90,16 @@ class Bar(BaseCallback):
         total: Environment steps of the whole training.
         curve: Learning curve, for the speed.
         row: Line of the terminal, counted from the first bar.
+        unit: Unit of the speed.
     """
 
-    def __init__(self, title: str, total: int, curve: Curve, row: int = 0) -> None:
+    def __init__(self, title: str, total: int, curve: Curve, row: int = 0, unit: str = "mm/s") -> None:
         super().__init__()
         self._title = title
         self._total = total
         self._curve = curve
         self._row = row
+        self._unit = unit
 
     def _on_training_start(self) -> None:
         self._tenth = TENTHS * self.num_timesteps // self._total
@@ -107,7 +114,7 @@ class Bar(BaseCallback):
         )
 
     def _on_rollout_end(self) -> None:
-        speed = f"{MM_PER_M * self._curve[-1][1]:.1f} mm/s" if self._curve else ""
+        speed = f"{MM_PER_M * self._curve[-1][1]:.1f} {self._unit}" if self._curve else ""
         tenth = TENTHS * self.num_timesteps // self._total
         if self._bar.disable and tenth > self._tenth:
             print(f"{self._title}: {self.num_timesteps} of {self._total} steps  {speed}", flush=True)

@@ -31,7 +31,13 @@ class VariedRobots(MagWormVecEnv):
     def __init__(
         self, settings: TrainingSettings, scene: Scene, seed: int, threads: int | None = None
     ) -> None:
-        super().__init__(settings.num_envs, scene, max_episode_steps=settings.episode_steps, threads=threads)
+        super().__init__(
+            settings.num_envs,
+            scene,
+            max_episode_steps=settings.episode_steps,
+            threads=threads,
+            task=settings.task,
+        )
         self._robots: dict[str, Any] = {}
         if settings.removed_share > 0.0:
             self._robots["removed"] = removed_for_each(

@@ -10,6 +10,7 @@ from command_line import Parser, UsageError, positive
 from training_settings import (
     ALGORITHMS,
     CONFIGS,
+    UNITS,
     TrainingSettings,
     read_saved_settings,
     read_settings,
@@ -17,6 +18,13 @@ from training_settings import (
 
 from magworm_gym import Scene, load_scene
 from magworm_gym.atomic_files import write_text
+from magworm_gym.tasks import task_named
+
+PURPOSES = {
+    "crawl": "crawl towards the head as fast as possible",
+    "turn": "turn to a heading and stay there",
+    "reach": "crawl to a point",
+}
 
 SETTINGS = "settings.json"
 SCENE = "scene.toml"
@@ -33,7 +41,7 @@ def main(arguments: list[str]) -> None:
         SceneError: The scene cannot be simulated.
     """
     flags = _parser().parse_args(arguments)
-    out = Path(flags.out)
+    out = Path(flags.out or f"runs/{flags.task}")
     settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags)
     if not flags.resume and (out / SETTINGS).exists():
         raise UsageError(
@@ -42,7 +50,9 @@ def main(arguments: list[str]) -> None:
     summaries = train(settings, out, flags.workers)
     for summary in summaries:
         speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
-        print(f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} mm/s while exploring")
+        print(
+            f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} {UNITS[settings.task]} while exploring"
+        )
     print(f"policies are in {out}/seed-*/policy")
 
 
@@ -72,8 +82,16 @@ def train(settings: TrainingSettings, out: Path, workers: int | None = None) -> 
 
 
 def _new_settings(flags: argparse.Namespace) -> TrainingSettings:
-    config = Path(flags.config) if flags.config else CONFIGS / f"{flags.algorithm or 'ppo'}.toml"
-    return read_settings(config, _overrides(flags))
+    """Settings of a file, of the task's own if it has one, with the flags on top."""
+    overrides = _overrides(flags)
+    if flags.config:
+        return read_settings(Path(flags.config), overrides)
+    algorithm = flags.algorithm or "ppo"
+    own = CONFIGS / f"{flags.task}-{algorithm}.toml"
+    if own.exists():
+        return read_settings(own, overrides)
+    scene = {"scene": task_named(flags.task).default_scene}
+    return read_settings(CONFIGS / f"{algorithm}.toml", scene | overrides)
 
 
 def _resumed_settings(flags: argparse.Namespace, out: Path) -> TrainingSettings:
@@ -89,7 +107,7 @@ def _resumed_settings(flags: argparse.Namespace, out: Path) -> TrainingSettings:
 
 
 def _overrides(flags: argparse.Namespace) -> dict[str, Any]:
-    names = ["algorithm", "scene", "num_envs", "steps", "seeds"]
+    names = ["task", "algorithm", "scene", "num_envs", "steps", "seeds"]
     names += ["checkpoint_steps", "removed_share", "parameter_spread"]
     return {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
 
@@ -97,21 +115,30 @@ def _overrides(flags: argparse.Namespace) -> dict[str, Any]:
 def _parser() -> Parser:
     parser = Parser(prog="train.py", description="Trains drive-magnet controllers.")
     tasks = parser.add_subparsers(dest="task", required=True, metavar="TASK", parser_class=Parser)
-    crawl = tasks.add_parser(
-        "crawl",
-        help="crawl towards the head as fast as possible",
-        description="Trains policies that crawl towards the head as fast as possible. Flags override the "
-        "table [run] of the settings file.",
-    )
-    add = crawl.add_argument
+    for name, purpose in PURPOSES.items():
+        task = tasks.add_parser(
+            name,
+            help=purpose,
+            description=f"Trains policies that {purpose}. Flags override the table [run] of the settings file.",
+        )
+        _add_flags(task, task_named(name).default_scene)
+    return parser
+
+
+def _add_flags(parser: Parser, scene: str) -> None:
+    add = parser.add_argument
     add("--algorithm", choices=ALGORITHMS, help="learning algorithm (default: ppo)")
-    add("--config", metavar="FILE", help="settings (default: training/configs/ALGORITHM.toml)")
-    add("--scene", help="preset or path of a TOML file (default: paper-3)")
+    add(
+        "--config",
+        metavar="FILE",
+        help="settings (default: those of task and algorithm in training/configs/)",
+    )
+    add("--scene", help=f"preset or path of a TOML file (default: {scene})")
     add("--num-envs", type=int, metavar="N", help="environments in the batch")
     add("--steps", type=int, metavar="N", help="environment steps of each seed")
     add("--seeds", type=int, nargs="+", metavar="SEED", help="one policy for each seed")
     add("--checkpoint-steps", type=int, metavar="N", help="environment steps between checkpoints")
-    randomise = crawl.add_argument_group("robots that differ, so that a policy survives damage")
+    randomise = parser.add_argument_group("robots that differ, so that a policy survives damage")
     randomise.add_argument(
         "--randomise-magnets", dest="removed_share", type=float, metavar="SHARE",
         help="share of environments whose robot lacks magnets (three are left at least)",
@@ -121,9 +148,8 @@ def _parser() -> Parser:
         help="stiffness, friction and so on differ by up to this share",
     )  # fmt: skip
     add("--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)")
-    add("--out", default="runs/crawl", metavar="FOLDER", help="folder of the run (default: %(default)s)")
+    add("--out", metavar="FOLDER", help="folder of the run (default: runs/TASK)")
     add("--resume", action="store_true", help="go on from the last complete checkpoint of --out")
-    return parser
 
 
 if __name__ == "__main__":

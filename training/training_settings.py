@@ -16,6 +16,9 @@ else:
 
 CONFIGS = Path(__file__).parent / "configs"
 ALGORITHMS = ("ppo", "sac")
+TRAINED_TASKS = ("crawl", "turn", "reach")
+UNITS = {"crawl": "mm/s", "turn": "°/s", "reach": "mm/s"}
+"""Unit of the reward of each task, per second."""
 TABLES = ("run", "policy", "learning_rate", "algorithm")
 
 
@@ -24,6 +27,7 @@ class TrainingSettings:
     """Everything that decides a training.
 
     Attributes:
+        task: "crawl", "turn" or "reach".
         algorithm: "ppo" or "sac", from Stable-Baselines3.
         scene: Preset, or path of a TOML file.
         num_envs: Environments in the batch.
@@ -38,6 +42,7 @@ class TrainingSettings:
         options: Table [algorithm]: arguments of the algorithm.
     """
 
+    task: str = "crawl"
     algorithm: str = "ppo"
     scene: str = "paper-3"
     num_envs: int = 256
@@ -53,6 +58,8 @@ class TrainingSettings:
 
     def __post_init__(self) -> None:
         """Checks ranges. Raises UsageError naming the setting, its value and what is allowed."""
+        if self.task not in TRAINED_TASKS:
+            raise UsageError(f"task is {self.task!r}; allowed: {', '.join(TRAINED_TASKS)}")
         if self.algorithm not in ALGORITHMS:
             raise UsageError(f"algorithm is {self.algorithm!r}; allowed: {', '.join(ALGORITHMS)}")
         for name in ("num_envs", "steps", "episode_steps", "checkpoint_steps"):

@@ -1,0 +1,194 @@
+"""The report of a comparison of turning or reaching: table, verdict, figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from goal_comparison import LEARNED, REACH_GOALS_M, TURN_GOALS_DEG, GoalComparison, Row
+from intervals import Interval, interval
+from pilots import FAMILIES
+from training_settings import UNITS
+
+mpl.use("Agg")
+
+from matplotlib import pyplot as plt
+
+COLUMNS = {
+    "time_to_30_deg_s": ("time to 30° [s]", 1.0),
+    "reached_30_deg_share": ("30° reached [%]", 100.0),
+    "time_to_90_deg_s": ("time to 90° [s]", 1.0),
+    "reached_90_deg_share": ("90° reached [%]", 100.0),
+    "final_error_deg": ("final heading error [°]", 1.0),
+    "success_share": ("goal reached [%]", 100.0),
+    "time_s": ("time to the goal [s]", 1.0),
+    "final_distance_mm": ("final distance [mm]", 1.0),
+    "lost_share": ("tipped over or broken [%]", 100.0),
+}
+"""Figures of the table in order, those that a task has: heading and factor."""
+DECISIVE = {"time_to_30_deg_s": "time to 30°", "time_s": "time to the goal"}
+"""What the verdict compares: less is better."""
+COLOURS = ("#1c8c7a", "#3b6fb6", "#7a5ca8", "#c25a1e", "#8a8a8a")
+
+
+def intervals_of(row: Row) -> dict[str, Interval]:
+    """Interquartile mean and interval of each figure of the table."""
+    return {name: interval(row["samples"][name]) for name in COLUMNS if name in row["samples"]}
+
+
+def table(rows: list[Row]) -> str:
+    """Markdown table of all rivals."""
+    names = [name for name in COLUMNS if name in rows[0]["samples"]]
+    lines = [
+        "| rival | " + " | ".join(COLUMNS[name][0] for name in names) + " | seeds |",
+        "| --- |" + " --- |" * (len(names) + 1),
+    ]
+    for row in rows:
+        found = intervals_of(row)
+        cells = [_cell(found[name].scaled(COLUMNS[name][1])) for name in names]
+        lines.append(f"| {row['rival']} | " + " | ".join(cells) + f" | {found[names[0]].count} |")
+    return "\n".join(lines)
+
+
+def verdict(rows: list[Row]) -> str:
+    """Says in words how the learned policy compares with each rival; intervals decide."""
+    figure = next(name for name in DECISIVE if name in rows[0]["samples"])
+    learned = interval(rows[0]["samples"][figure])
+    sentences = []
+    for row in rows[1:]:
+        rival = interval(row["samples"][figure])
+        values = f"{learned.value:.1f} against {rival.value:.1f} s"
+        if learned.high < rival.low:
+            sentences.append(
+                f"The learned policy beats the rival “{row['rival']}” in {DECISIVE[figure]}: {values}."
+            )
+        elif learned.low > rival.high:
+            sentences.append(
+                f"The learned policy does not beat the rival “{row['rival']}” in {DECISIVE[figure]}: {values}."
+            )
+        else:
+            sentences.append(
+                f"The learned policy cannot be told from the rival “{row['rival']}” in {DECISIVE[figure]}: {values}, "
+                "and the intervals overlap."
+            )
+    best = min(rows, key=lambda row: interval(row["samples"][figure]).value)
+    sentences.append(f"The quickest is: {best['rival']}.")
+    return " ".join(sentences)
+
+
+def report(comparison: GoalComparison, rows: list[Row]) -> str:
+    """The whole report in Markdown."""
+    final, size, task = comparison.budget.final, comparison.size, comparison.task
+    settings, summary = comparison.budget.training, comparison.summaries[0]
+    limits = ", ".join(f"`{name}` {value:g}" for name, value in (comparison.scene.stage_limits or {}).items())
+    if task == "turn":
+        goals = ", ".join(f"{goal:+.0f}°" for goal in TURN_GOALS_DEG)
+        meaning = (
+            "Time to 30° and to 90°: until less than 3° are left for the first time of a goal of ±30° and ±90°. "
+            f"An episode in which that never happens counts with the whole {final.duration_s:g} s: such times are "
+            "censored, the true ones are longer, and the column beside them says how many were reached."
+        )
+    else:
+        goals = ", ".join(f"({1e3 * x:.0f}, {1e3 * z:.0f}) mm" for x, z in REACH_GOALS_M)
+        meaning = (
+            "Time to the goal: until the robot's centre is within 5 mm of it. An episode in which that never happens "
+            f"counts with the whole {final.duration_s:g} s: such times are censored, the true ones are longer."
+        )
+    rivals = [f"- **{family.title}**: {family.what}." for family in FAMILIES.values()]
+    done = "turned" if task == "turn" else "of the way"
+    parts = [
+        f"# {'Turning' if task == 'turn' else 'Reaching'} in {comparison.scene.name}: learned against searched drives",
+        verdict(rows),
+        table(rows),
+        f"Goals {goals}, {final.starts} starts of each with the same seeds for every rival, episodes of "
+        f"{final.duration_s:g} s. {meaning} Each seed's sample is its mean over goals and starts; interquartile mean "
+        "and 95 % percentile bootstrap interval over the seeds of a training or a search. Over five seeds an interval "
+        "is hardly more than their range.",
+        f"Limits of the stage: {limits}; control period {1e3 * comparison.scene.control_step_s:.0f} ms.",
+        "## How the rivals were made",
+        f"- **{LEARNED}**: {settings.algorithm.upper()} (Stable-Baselines3), {settings.num_envs} environments, "
+        f"{summary['steps']} environment steps = {summary['simulated_s']:.0f} simulated seconds for each seed, goals "
+        "drawn as the task draws them, evaluated with its mean action. While exploring it got "
+        f"{_exploring(comparison)} {UNITS[task]} in the end.",
+        "\n".join(rivals),
+        f"Every search: CMA-ES (library cmaes), begun at the best of {size.scouts} random ones, {size.generations} "
+        f"generations of {size.population}, {size.starts} trials of {size.duration_s:g} s each = "
+        f"{_searched_s(comparison):.0f} simulated seconds; {size.seeds} independent searches. It maximises "
+        + (
+            "the shares of 30° and of 90° that are turned, averaged over the time. "
+            if task == "turn"
+            else "the share of the way that is done, averaged over the time. "
+        )
+        + "Rivals know the side on which the goal is and are mirrored to it at every control step"
+        + (
+            "; they park the magnet while less than 2° are left."
+            if task == "turn"
+            else "; they keep to the middle while it is within 10° of straight ahead."
+        ),
+        f"![Share {done} against time]({task}.png)",
+        f"Animation of the best seed, from above and from the side: [{task}.mp4]({task}.mp4), [{task}.gif]({task}.gif).",
+        "All of this is of the model, not of a robot in a laboratory.",
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def results(comparison: GoalComparison, rows: list[Row]) -> dict[str, Any]:
+    """All results as plain values."""
+    return {
+        "task": comparison.task,
+        "scene": comparison.scene.to_toml(),
+        "verdict": verdict(rows),
+        "rivals": [
+            {
+                "rival": row["rival"],
+                "samples": row["samples"],
+                "intervals": {name: vars(value) for name, value in intervals_of(row).items()},
+            }
+            for row in rows
+        ],
+        "training": comparison.summaries,
+        "searches": {
+            name: [comparison.search(name, seed) for seed in range(comparison.size.seeds)]
+            for name in FAMILIES
+        },
+    }
+
+
+def draw(path: Path, comparison: GoalComparison, rows: list[Row]) -> None:
+    """Draws the share of the goal done against time (mean over seeds, band: their range), and learning curves."""
+    with mpl.rc_context({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False}):
+        figure, (done, learning) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
+        for row, colour in zip(rows, COLOURS, strict=True):
+            curves = np.array(row["curves"])
+            time_s, shares = curves[0, :, 0], 100.0 * curves[:, :, 1]
+            done.plot(time_s, shares.mean(axis=0), color=colour, label=row["rival"])
+            done.fill_between(time_s, shares.min(axis=0), shares.max(axis=0), color=colour, alpha=0.15, lw=0)
+        done.set_xlabel("time [s]")
+        done.set_ylabel("share of the goal done, all goals [%]")
+        done.legend(frameon=False)
+        for summary in comparison.summaries:
+            steps, rewards = np.array(summary["curve"]).reshape(-1, 2).T
+            learning.plot(
+                1e-3 * steps, 1e3 * rewards, color=COLOURS[0], lw=1.0, label=f"seed {summary['seed']}"
+            )
+        learning.set_xlabel("thousand environment steps")
+        learning.set_ylabel(f"reward while exploring [{UNITS[comparison.task]}]")
+        part = path.with_name(f".part-{path.name}")
+        figure.savefig(part, dpi=130, format="png")
+        plt.close(figure)
+        part.replace(path)
+
+
+def _exploring(comparison: GoalComparison) -> str:
+    last = [1e3 * summary["curve"][-1][1] for summary in comparison.summaries if summary["curve"]]
+    return f"{min(last):.2f} to {max(last):.2f}" if last else "an unknown number of"
+
+
+def _searched_s(comparison: GoalComparison) -> float:
+    return float(comparison.search(next(iter(FAMILIES)), 0)["simulated_s"])
+
+
+def _cell(value: Interval) -> str:
+    return f"{value.value:.1f} [{value.low:.1f}, {value.high:.1f}]"
