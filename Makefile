@@ -8,6 +8,9 @@ TORCH_INDEX_URL ?=
 # Size and folder of the comparison that `make demo` runs; see training/configs/budget-*.toml.
 BUDGET ?= small
 OUT ?= runs/demo
+# Folders of `make turn` and `make reach`, whose BUDGET may also be smoke; see training/configs/goal-*.toml.
+TURN_OUT ?= runs/turn-comparison
+REACH_OUT ?= runs/reach-comparison
 
 VENV_PYTHON := $(abspath $(VENV))/bin/python
 MATURIN := env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) $(VENV_PYTHON) -m maturin
@@ -21,7 +24,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo validate paper turning-map identify test bench wheel lint format docs clean install \
+.PHONY: help demo turn reach validate paper turning-map identify test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -29,6 +32,12 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 
 demo: install-train  ## train a controller, compare it with the belts, print the table last
 	$(VENV_PYTHON) training/evaluate.py --budget $(BUDGET) --out $(OUT)
+
+turn: install-train  ## train turning, compare it with belts and two magnets, half an hour
+	$(VENV_PYTHON) training/evaluate_goals.py turn --budget $(BUDGET) --out $(TURN_OUT)
+
+reach: install-train  ## the same for crawling to a point
+	$(VENV_PYTHON) training/evaluate_goals.py reach --budget $(BUDGET) --out $(REACH_OUT)
 
 validate: install-train need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
 	$(VENV_PYTHON) studies/validation/validate.py

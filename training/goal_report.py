@@ -28,8 +28,13 @@ COLUMNS = {
     "lost_share": ("tipped over or broken [%]", 100.0),
 }
 """Figures of the table in order, those that a task has: heading and factor."""
-DECISIVE = {"time_to_30_deg_s": "time to 30°", "time_s": "time to the goal"}
-"""What the verdict compares: less is better."""
+DECISIVE = {
+    "time_to_30_deg_s": ("time to 30°", "s"),
+    "time_s": ("time to the goal", "s"),
+    "final_error_deg": ("final heading error", "°"),
+    "final_distance_mm": ("final distance", "mm"),
+}
+"""What the verdict compares, the first that tells anything: less is better."""
 COLOURS = ("#1c8c7a", "#3b6fb6", "#7a5ca8", "#c25a1e", "#8a8a8a")
 
 
@@ -53,29 +58,38 @@ def table(rows: list[Row]) -> str:
 
 
 def verdict(rows: list[Row]) -> str:
-    """Says in words how the learned policy compares with each rival; intervals decide."""
-    figure = next(name for name in DECISIVE if name in rows[0]["samples"])
+    """Says in words how the learned policy compares with each rival; intervals decide.
+
+    Where hardly anyone gets there, times say nothing: then what is left at the end decides.
+    """
+    figures = [name for name in DECISIVE if name in rows[0]["samples"]]
+    figure = next(
+        (name for name in figures if any(min(row["samples"][name]) < _censored(rows, name) for row in rows)),
+        figures[-1],
+    )
+    name, unit = DECISIVE[figure]
     learned = interval(rows[0]["samples"][figure])
-    sentences = []
+    sentences = [] if figure == figures[0] else ["Nobody reached a goal in the time given."]
     for row in rows[1:]:
         rival = interval(row["samples"][figure])
-        values = f"{learned.value:.1f} against {rival.value:.1f} s"
         if learned.high < rival.low:
-            sentences.append(
-                f"The learned policy beats the rival “{row['rival']}” in {DECISIVE[figure]}: {values}."
-            )
+            outcome = "beats"
         elif learned.low > rival.high:
-            sentences.append(
-                f"The learned policy does not beat the rival “{row['rival']}” in {DECISIVE[figure]}: {values}."
-            )
+            outcome = "does not beat"
         else:
-            sentences.append(
-                f"The learned policy cannot be told from the rival “{row['rival']}” in {DECISIVE[figure]}: {values}, "
-                "and the intervals overlap."
-            )
+            outcome = "cannot be told, their intervals overlap, from"
+        sentences.append(
+            f"The learned policy {outcome} the rival “{row['rival']}” in {name}: "
+            f"{learned.value:.1f} against {rival.value:.1f} {unit}."
+        )
     best = min(rows, key=lambda row: interval(row["samples"][figure]).value)
-    sentences.append(f"The quickest is: {best['rival']}.")
+    sentences.append(f"Best in {name}: {best['rival']}.")
     return " ".join(sentences)
+
+
+def _censored(rows: list[Row], figure: str) -> float:
+    """What a figure is where nobody gets there."""
+    return max(max(row["samples"][figure]) for row in rows)
 
 
 def report(comparison: GoalComparison, rows: list[Row]) -> str:
@@ -83,52 +97,43 @@ def report(comparison: GoalComparison, rows: list[Row]) -> str:
     final, size, task = comparison.budget.final, comparison.size, comparison.task
     settings, summary = comparison.budget.training, comparison.summaries[0]
     limits = ", ".join(f"`{name}` {value:g}" for name, value in (comparison.scene.stage_limits or {}).items())
+    censored = (
+        f"An episode in which that never happens counts with the whole {final.duration_s:g} s: such times "
+        "are censored, the true ones are longer; how many got there stands beside them."
+    )
     if task == "turn":
         goals = ", ".join(f"{goal:+.0f}°" for goal in TURN_GOALS_DEG)
-        meaning = (
-            "Time to 30° and to 90°: until less than 3° are left for the first time of a goal of ±30° and ±90°. "
-            f"An episode in which that never happens counts with the whole {final.duration_s:g} s: such times are "
-            "censored, the true ones are longer, and the column beside them says how many were reached."
-        )
+        meaning = "Time to 30° and to 90°: until less than 3° are left for the first time of such a goal."
+        title, maximised = "Turning", "the shares of 30° and of 90° that are turned"
+        steering = "they park the magnet while less than 2° are left"
     else:
         goals = ", ".join(f"({1e3 * x:.0f}, {1e3 * z:.0f}) mm" for x, z in REACH_GOALS_M)
-        meaning = (
-            "Time to the goal: until the robot's centre is within 5 mm of it. An episode in which that never happens "
-            f"counts with the whole {final.duration_s:g} s: such times are censored, the true ones are longer."
-        )
+        meaning = "Time to the goal: until the robot's centre is within 5 mm of it."
+        title, maximised = "Reaching", "the share of the way that is done"
+        steering = "they keep to the middle while it is within 10° of straight ahead"
     rivals = [f"- **{family.title}**: {family.what}." for family in FAMILIES.values()]
-    done = "turned" if task == "turn" else "of the way"
     parts = [
-        f"# {'Turning' if task == 'turn' else 'Reaching'} in {comparison.scene.name}: learned against searched drives",
+        f"# {title} in {comparison.scene.name}: learned against searched drives",
         verdict(rows),
         table(rows),
         f"Goals {goals}, {final.starts} starts of each with the same seeds for every rival, episodes of "
-        f"{final.duration_s:g} s. {meaning} Each seed's sample is its mean over goals and starts; interquartile mean "
-        "and 95 % percentile bootstrap interval over the seeds of a training or a search. Over five seeds an interval "
-        "is hardly more than their range.",
+        f"{final.duration_s:g} s. {meaning} {censored} Each seed's sample is its mean over goals and starts; "
+        "interquartile mean and 95 % percentile bootstrap interval over the seeds of a training or a search. "
+        "Over five seeds an interval is hardly more than their range.",
         f"Limits of the stage: {limits}; control period {1e3 * comparison.scene.control_step_s:.0f} ms.",
         "## How the rivals were made",
-        f"- **{LEARNED}**: {settings.algorithm.upper()} (Stable-Baselines3), {settings.num_envs} environments, "
-        f"{summary['steps']} environment steps = {summary['simulated_s']:.0f} simulated seconds for each seed, goals "
-        "drawn as the task draws them, evaluated with its mean action. While exploring it got "
-        f"{_exploring(comparison)} {UNITS[task]} in the end.",
-        "\n".join(rivals),
-        f"Every search: CMA-ES (library cmaes), begun at the best of {size.scouts} random ones, {size.generations} "
-        f"generations of {size.population}, {size.starts} trials of {size.duration_s:g} s each = "
-        f"{_searched_s(comparison):.0f} simulated seconds; {size.seeds} independent searches. It maximises "
-        + (
-            "the shares of 30° and of 90° that are turned, averaged over the time. "
-            if task == "turn"
-            else "the share of the way that is done, averaged over the time. "
-        )
-        + "Rivals know the side on which the goal is and are mirrored to it at every control step"
-        + (
-            "; they park the magnet while less than 2° are left."
-            if task == "turn"
-            else "; they keep to the middle while it is within 10° of straight ahead."
-        ),
-        f"![Share {done} against time]({task}.png)",
-        f"Animation of the best seed, from above and from the side: [{task}.mp4]({task}.mp4), [{task}.gif]({task}.gif).",
+        f"- **{LEARNED}**: {settings.algorithm.upper()} (Stable-Baselines3), {settings.num_envs} "
+        f"environments, {summary['steps']} environment steps = {summary['simulated_s']:.0f} simulated "
+        "seconds for each seed, goals drawn as the task draws them, evaluated with its mean action. While "
+        f"exploring it got {_exploring(comparison)} {UNITS[task]} in the end.\n" + "\n".join(rivals),
+        f"Every search: CMA-ES (library cmaes), begun at the best of {size.scouts} random ones, "
+        f"{size.generations} generations of {size.population}, {size.starts} trials of {size.duration_s:g} s "
+        f"each = {_searched_s(comparison):.0f} simulated seconds; {size.seeds} independent searches. It "
+        f"maximises {maximised}, averaged over the time. Rivals know the side on which the goal is and are "
+        f"mirrored to it at every control step; {steering}.",
+        f"![Share of the goal done against time, and learning]({task}.png)",
+        "Animation of the best seed, from above and from the side: "
+        f"[{task}.mp4]({task}.mp4), [{task}.gif]({task}.gif).",
         "All of this is of the model, not of a robot in a laboratory.",
     ]
     return "\n\n".join(parts) + "\n"
@@ -157,7 +162,7 @@ def results(comparison: GoalComparison, rows: list[Row]) -> dict[str, Any]:
 
 
 def draw(path: Path, comparison: GoalComparison, rows: list[Row]) -> None:
-    """Draws the share of the goal done against time (mean over seeds, band: their range), and learning curves."""
+    """Draws the share of the goal done against time (a band is the range of seeds), and learning curves."""
     with mpl.rc_context({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False}):
         figure, (done, learning) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
         for row, colour in zip(rows, COLOURS, strict=True):

@@ -217,34 +217,39 @@ def _free(unit: Floats, _: dict[str, float]) -> Cycle:
     return Cycle(durations, unit[1:].reshape(CONTROL_POINTS, ACTIONS), smooth=True)
 
 
-PAIR = "drive.arrangement"
+DRIVE = "drive.arrangement"
+SINGLE: tuple[tuple[str, Any], ...] = ((DRIVE, {"kind": "single"}),)
+PAIR: tuple[tuple[str, Any], ...] = ((DRIVE, {"kind": "pair", "spacing_m": 0.040, "second_polarity": 1}),)
 FAMILIES = {
     "misaligned": Family(
         "misaligned belt",
         6,
         _misaligned,
-        "passes at 100 to 210 mm/s with one lateral offset, the way back low; speed, height, stroke, its middle, "
-        "direction and offset searched",
+        "passes at 100 to 210 mm/s with one lateral offset, the way back low; speed, height, stroke, its "
+        "middle, direction and offset searched; one drive magnet",
+        SINGLE,
     ),
     "alternating": Family(
         "alternating offset",
         7,
         _alternating,
-        "the same with a lateral offset of its own for every second pass",
+        "the same with a lateral offset of its own for every second pass; one drive magnet",
+        SINGLE,
     ),
     "pair": Family(
         "two drive magnets (Joyee & Pan)",
         5,
         _pair,
-        "two magnets 40 mm apart rise beneath the outer feet, yaw to drag them, sink and yaw back; height, both "
-        "yaws, speed and place searched; another drive than the others have",
-        ((PAIR, {"kind": "pair", "spacing_m": 0.040, "second_polarity": 1}),),
+        "two magnets 40 mm apart rise beneath the outer feet, yaw to drag them, sink and yaw back; height, "
+        "both yaws, speed and place searched",
+        PAIR,
     ),
     "free": Family(
         "CMA-ES stroke",
         1 + CONTROL_POINTS * ACTIONS,
         _free,
-        "a periodic trajectory of all five actions, six control points, period 0.2 to 2 s",
+        "a periodic trajectory of all five actions, six control points, period 0.2 to 2 s; the drive that "
+        "the policy has",
     ),
 }
-"""The rivals, by name; those before "free" are the baselines of the literature."""
+"""The rivals, by name."""

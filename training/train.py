@@ -10,6 +10,7 @@ from command_line import Parser, UsageError, positive
 from training_settings import (
     ALGORITHMS,
     CONFIGS,
+    SCENES,
     UNITS,
     TrainingSettings,
     read_saved_settings,
@@ -51,7 +52,8 @@ def main(arguments: list[str]) -> None:
     for summary in summaries:
         speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
         print(
-            f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} {UNITS[settings.task]} while exploring"
+            f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} {UNITS[settings.task]} "
+            "while exploring"
         )
     print(f"policies are in {out}/seed-*/policy")
 
@@ -70,8 +72,11 @@ def train(settings: TrainingSettings, out: Path, workers: int | None = None) -> 
     from parallel_seeds import default_workers, train_seeds
 
     kept_scene = out / SCENE
+    own = SCENES / settings.scene
     scene = (
-        Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
+        Scene.from_toml(kept_scene.read_text("utf-8"))
+        if kept_scene.exists()
+        else load_scene(own if own.is_file() else settings.scene)
     )
     if not scene.controlled:
         raise UsageError(f"scene {settings.scene!r} has no drive that a policy could control")
@@ -119,7 +124,8 @@ def _parser() -> Parser:
         task = tasks.add_parser(
             name,
             help=purpose,
-            description=f"Trains policies that {purpose}. Flags override the table [run] of the settings file.",
+            description=f"Trains policies that {purpose}. Flags override the table [run] of the settings "
+            "file.",
         )
         _add_flags(task, task_named(name).default_scene)
     return parser

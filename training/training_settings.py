@@ -15,6 +15,7 @@ else:
     import tomli as tomllib
 
 CONFIGS = Path(__file__).parent / "configs"
+SCENES = Path(__file__).parent / "scenes"
 ALGORITHMS = ("ppo", "sac")
 TRAINED_TASKS = ("crawl", "turn", "reach")
 UNITS = {"crawl": "mm/s", "turn": "°/s", "reach": "mm/s"}
