@@ -183,10 +183,11 @@ def main() -> None:
     text = (
         "# Learning algorithms on turning\n\n"
         "`MagWorm/Turn-v0` with two drive magnets (`training/scenes/turn-3-pair.toml`), each algorithm for "
-        f"{flags.seconds:.0f} s of processor time, network updates included, in one process with one thread: "
-        "wall-clock time on an idle core, and fair on a busy one. Written by `studies/learners.py`. Then the "
-        f"mean action over goals of ±30° and ±90° from {STARTS} starts each, {MEASURE_S:.0f} s. Settings "
-        "stand in the script; none was tuned at length. A few tenths of °/s while exploring are the reward of "
+        f"{flags.seconds:.0f} s of processor time, network updates included, in one process with "
+        "one thread: wall-clock time on an idle core, and fair on a busy one. Written by "
+        "`studies/learners.py`. Then the mean action over goals of ±30° and ±90° from "
+        f"{STARTS} starts each, {MEASURE_S:.0f} s. Settings stand in the script; none was tuned at length, "
+        "and none begins as a copy. A few tenths of °/s while exploring are the reward of "
         "standing near a goal that was drawn near.\n\n" + "\n".join(lines) + "\n"
     )
     if missing:

@@ -99,7 +99,7 @@ def restore_checkpoint(path: Path, trainee: Trainee) -> Trainee:
 
 def save_normalisation(path: Path, normalisation: VecNormalize) -> None:
     """Writes running mean, variance and count of observations and returns."""
-    observations, returns = _statistics(normalisation)
+    observations, returns = statistics(normalisation)
     np.savez(
         path,
         mean=observations.mean,
@@ -116,7 +116,7 @@ def save_normalisation(path: Path, normalisation: VecNormalize) -> None:
 
 def load_normalisation(path: Path, normalisation: VecNormalize) -> None:
     """Reads what ``save_normalisation`` wrote."""
-    observations, returns = _statistics(normalisation)
+    observations, returns = statistics(normalisation)
     with np.load(path) as kept:
         observations.mean, observations.var = kept["mean"], kept["var"]
         observations.count = float(kept["count"])
@@ -125,7 +125,7 @@ def load_normalisation(path: Path, normalisation: VecNormalize) -> None:
         normalisation.returns = kept["returns"]
 
 
-def _statistics(normalisation: VecNormalize) -> tuple[RunningMeanStd, RunningMeanStd]:
+def statistics(normalisation: VecNormalize) -> tuple[RunningMeanStd, RunningMeanStd]:
     """Statistics of observations and of returns."""
     observations = normalisation.obs_rms
     assert isinstance(observations, RunningMeanStd), "observations are one array"

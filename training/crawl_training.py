@@ -31,6 +31,7 @@ from magworm_gym import Scene
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 ALGORITHM_CLASSES: dict[str, type[BaseAlgorithm]] = {"ppo": PPO, "sac": SAC}
 POLICY = "policy"
+TAUGHT = "taught.json"
 FINISHED = "finished.json"
 CHECKPOINTS = "checkpoints"
 CURVE_POINTS = 100
@@ -68,10 +69,15 @@ def train_seed(
     # The network is small: a second thread costs more in waiting than it computes.
     torch.set_num_threads(1)
     began = time.monotonic()
-    trainee = _trainee(settings, scene, seed, threads)
+    trainee, robots = _trainee(settings, scene, seed, threads)
     checkpoints = complete_checkpoints(folder / CHECKPOINTS)
     if checkpoints:
         trainee = restore_checkpoint(checkpoints[-1], trainee)
+    elif "teacher" in settings.policy:
+        from demonstration import teach
+
+        taught_steps = teach(settings, scene, trainee, robots, seed)
+        write_json(folder / TAUGHT, {"steps": taught_steps})
     first_step = trainee.model.num_timesteps
     _learn(settings, scene, trainee, folder, row)
     _save_policy(folder / POLICY, trainee)
@@ -94,8 +100,10 @@ def read_finished(folder: Path) -> dict[str, Any]:
     return summary
 
 
-def _trainee(settings: TrainingSettings, scene: Scene, seed: int, threads: int | None) -> Trainee:
-    """A training before its first step."""
+def _trainee(
+    settings: TrainingSettings, scene: Scene, seed: int, threads: int | None
+) -> tuple[Trainee, VariedRobots]:
+    """A training before its first step, and its environments as they are."""
     # Not the argument of the algorithm: that would also seed the environments, close to each other.
     set_random_seed(seed)
     robots = VariedRobots(settings, scene, seed, threads)
@@ -108,7 +116,7 @@ def _trainee(settings: TrainingSettings, scene: Scene, seed: int, threads: int |
     vec_env.reset()
     model = _model(settings, vec_env)
     model.action_space.seed(seed)
-    return Trainee(model, robots.worms, normalisation, [])
+    return Trainee(model, robots.worms, normalisation, []), robots
 
 
 def _model(settings: TrainingSettings, vec_env: VecEnv) -> BaseAlgorithm:

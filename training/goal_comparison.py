@@ -143,7 +143,8 @@ def _curve(flight: Flight) -> list[list[float]]:
     """Time [s] and mean share of the goal that is done."""
     share = 1.0 - np.abs(flight.left) / np.abs(flight.left[0])
     time_s = np.arange(len(share)) * flight.step_s
-    return np.stack([time_s, share.mean(axis=1)], axis=1)[::CURVE_EVERY].tolist()
+    points: list[list[float]] = np.stack([time_s, share.mean(axis=1)], axis=1)[::CURVE_EVERY].tolist()
+    return points
 
 
 def _row(title: str, flown: list[dict[str, Any]]) -> Row:

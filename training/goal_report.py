@@ -89,7 +89,8 @@ def verdict(rows: list[Row]) -> str:
 
 def _censored(rows: list[Row], figure: str) -> float:
     """What a figure is where nobody gets there."""
-    return max(max(row["samples"][figure]) for row in rows)
+    worst: float = max(max(row["samples"][figure]) for row in rows)
+    return worst
 
 
 def report(comparison: GoalComparison, rows: list[Row]) -> str:
@@ -124,7 +125,8 @@ def report(comparison: GoalComparison, rows: list[Row]) -> str:
         "## How the rivals were made",
         f"- **{LEARNED}**: {settings.algorithm.upper()} (Stable-Baselines3), {settings.num_envs} "
         f"environments, {summary['steps']} environment steps = {summary['simulated_s']:.0f} simulated "
-        "seconds for each seed, goals drawn as the task draws them, evaluated with its mean action. While "
+        f"seconds for each seed{_taught(comparison)}, goals drawn as the task draws them, evaluated with its "
+        "mean action. While "
         f"exploring it got {_exploring(comparison)} {UNITS[task]} in the end.\n" + "\n".join(rivals),
         f"Every search: CMA-ES (library cmaes), begun at the best of {size.scouts} random ones, "
         f"{size.generations} generations of {size.population}, {size.starts} trials of {size.duration_s:g} s "
@@ -186,13 +188,24 @@ def draw(path: Path, comparison: GoalComparison, rows: list[Row]) -> None:
         part.replace(path)
 
 
+def _taught(comparison: GoalComparison) -> str:
+    teacher = comparison.budget.training.policy.get("teacher")
+    if teacher is None:
+        return ""
+    return (
+        f", after it was begun as a copy of a cycle of “{FAMILIES[teacher].title}” (behaviour cloning), "
+        "found by a short search of its own"
+    )
+
+
 def _exploring(comparison: GoalComparison) -> str:
     last = [1e3 * summary["curve"][-1][1] for summary in comparison.summaries if summary["curve"]]
     return f"{min(last):.2f} to {max(last):.2f}" if last else "an unknown number of"
 
 
 def _searched_s(comparison: GoalComparison) -> float:
-    return float(comparison.search(next(iter(FAMILIES)), 0)["simulated_s"])
+    simulated_s: float = comparison.search(next(iter(FAMILIES)), 0)["simulated_s"]
+    return simulated_s
 
 
 def _cell(value: Interval) -> str:

@@ -92,7 +92,9 @@ def _scores(
     cycles = [family.cycle(candidate, limits) for candidate in candidates for _ in range(size.starts)]
     seeds = np.tile(generator.integers(SEED_LIMIT, size=size.starts), len(candidates))
     which = np.tile(np.arange(size.starts) % 2, len(candidates))
-    goals = TURN_GOAL_DEG * (1.0 - 2.0 * which) if task == "turn" else np.array(REACH_GOALS_M)[which]
+    goals: Floats = np.array(REACH_GOALS_M)[which]
+    if task == "turn":
+        goals = np.where(which == 0, TURN_GOAL_DEG, -TURN_GOAL_DEG)
     flight = fly(scene, task, Steered(cycles), goals, seeds.tolist(), size.duration_s)
     scores = np.where(flight.lost, LOST_SCORE, score_of(flight, task))
     return np.asarray(scores.reshape(len(candidates), size.starts).mean(axis=1))

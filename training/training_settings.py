@@ -38,7 +38,7 @@ class TrainingSettings:
         checkpoint_steps: Environment steps between checkpoints.
         removed_share: Share of environments with magnets taken out, 0 to 1.
         parameter_spread: Share by which parameters of an environment differ from the scene's, 0 to 0.9.
-        policy: Table [policy]: hidden, activation, normalise, log_std_init.
+        policy: Table [policy]: hidden, activation, normalise, log_std_init, teacher.
         learning_rate: Table [learning_rate]: start and end.
         options: Table [algorithm]: arguments of the algorithm.
     """

@@ -1,0 +1,113 @@
+"""A policy that begins as a copy of a searched cycle, before it learns by itself."""
+
+from typing import Any
+
+import numpy as np
+import torch
+from checkpoints import Trainee, statistics
+from command_line import UsageError
+from goal_search import SearchSize, searched
+from numpy.typing import NDArray
+from pilots import FAMILIES, Steered
+from stable_baselines3 import PPO
+from training_settings import TrainingSettings
+
+from magworm_gym import Scene
+from magworm_gym.sb3 import MagWormVecEnv
+
+SEARCH = SearchSize(seeds=1, scouts=64, population=12, generations=4, starts=1, duration_s=4.0)
+"""How the teacher is found."""
+STEPS = 200
+NOISE = 0.15
+NOISY_SHARE = 0.5
+"""Share of actions that are disturbed, so that the copy sees how the teacher comes back."""
+EPOCHS = 25
+BATCH = 1024
+RATE = 1e-3
+VALUE_WEIGHT = 0.5
+LEAST_VARIANCE = 1e-4
+
+
+def teach(
+    settings: TrainingSettings, scene: Scene, trainee: Trainee, robots: MagWormVecEnv, seed: int
+) -> int:
+    """Searches a teacher, lets it act and fits policy, value and normalisation to what was seen.
+
+    Args:
+        settings: Settings of the training; ``policy["teacher"]`` names one of ``pilots.FAMILIES``.
+        scene: Scene of the training.
+        trainee: A fresh training with PPO and normalised observations.
+        robots: Its environments without the normalisation.
+        seed: Seed of search, disturbances and order.
+
+    Returns:
+        Environment steps that this took, search included.
+
+    Raises:
+        UsageError: The settings do not go with a teacher.
+    """
+    name, model, normalisation = settings.policy["teacher"], trainee.model, trainee.normalisation
+    if name not in FAMILIES:
+        raise UsageError(f"teacher is {name!r}; allowed: {', '.join(FAMILIES)}")
+    if not isinstance(model, PPO) or normalisation is None or settings.task == "crawl":
+        raise UsageError("a teacher goes with ppo, normalise = true and the tasks turn and reach")
+    family = FAMILIES[name]
+    if family.scene(scene) != scene:
+        raise UsageError(f"the teacher {name!r} has another drive than scene {scene.name!r}")
+    found = searched(scene, settings.task, family, SEARCH, seed)
+    cycle = family.cycle(np.array(found["parameters"]), scene.stage_limits or {})
+    seen, actions, returns = _shown(
+        robots, Steered([cycle]), seed, float(settings.options.get("gamma", 0.99))
+    )
+    of_observations, of_returns = statistics(normalisation)
+    of_observations.mean = seen.mean(axis=0, dtype=np.float64)
+    of_observations.var = seen.var(axis=0, dtype=np.float64) + LEAST_VARIANCE
+    of_returns.mean, of_returns.var = np.array(returns.mean()), np.array(returns.var())
+    of_observations.count = of_returns.count = float(len(seen))
+    values = returns / np.sqrt(returns.var() + normalisation.epsilon)
+    _fit(model, np.asarray(normalisation.normalize_obs(seen)), actions, values)
+    # New episodes: the robots stand where the teacher left them.
+    normalisation.reset()
+    search_steps: int = round(found["simulated_s"] / scene.control_step_s)
+    return len(seen) + search_steps
+
+
+def _shown(
+    robots: MagWormVecEnv, teacher: Steered, seed: int, gamma: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float64]]:
+    """What a teacher saw, wanted to do and got (S, …), some of its actions disturbed."""
+    generator = np.random.default_rng(seed)
+    observations = robots.reset()
+    teacher.start(robots.worms)
+    seen, wanted, rewards, dones = [], [], [], []
+    for _ in range(STEPS):
+        actions = teacher.act(observations)
+        seen.append(observations)
+        wanted.append(actions)
+        disturbed = generator.random((len(actions), 1)) < NOISY_SHARE
+        noise = NOISE * disturbed * generator.standard_normal(actions.shape)
+        robots.step_async(np.clip(actions + noise, -1.0, 1.0))
+        observations, reward, done, _ = robots.step_wait()
+        rewards.append(reward)
+        dones.append(done)
+    returns = np.zeros((STEPS, robots.num_envs))
+    after = np.zeros(robots.num_envs)
+    for step in reversed(range(STEPS)):
+        after = returns[step] = rewards[step] + gamma * after * ~dones[step]
+    return np.concatenate(seen), np.concatenate(wanted).astype(np.float32), returns.ravel()
+
+
+def _fit(model: PPO, seen: NDArray[Any], actions: NDArray[Any], values: NDArray[Any]) -> None:
+    """Least squares of the mean action and of the value."""
+    policy = model.policy
+    inputs, targets = torch.as_tensor(seen, dtype=torch.float32), torch.as_tensor(actions)
+    worth = torch.as_tensor(values, dtype=torch.float32)[:, None]
+    optimiser = torch.optim.Adam(policy.parameters(), RATE)
+    for _ in range(EPOCHS):
+        for rows in torch.split(torch.randperm(len(inputs)), BATCH):
+            acting, judging = policy.mlp_extractor(inputs[rows])
+            wrong = ((policy.action_net(acting) - targets[rows]) ** 2).mean()
+            misjudged = ((policy.value_net(judging) - worth[rows]) ** 2).mean()
+            optimiser.zero_grad()
+            (wrong + VALUE_WEIGHT * misjudged).backward()
+            optimiser.step()
