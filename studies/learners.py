@@ -43,15 +43,13 @@ OFF_POLICY = {
 }
 SETTINGS: dict[str, tuple[int, dict[str, Any]]] = {
     "PPO": (
-        256,
+        64,
         {
-            "learning_rate": 1.5e-3,
+            "learning_rate": 1e-3,
             "n_steps": 32,
-            "batch_size": 2048,
+            "batch_size": 512,
             "n_epochs": 5,
-            "use_sde": True,
-            "sde_sample_freq": 16,
-            "policy_kwargs": {"log_std_init": -0.5},
+            "policy_kwargs": {"log_std_init": 0.0},
         },
     ),
     "SAC": (64, {**OFF_POLICY, "tau": 0.01, "policy_kwargs": {"net_arch": [128, 128]}}),

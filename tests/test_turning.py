@@ -13,13 +13,14 @@ pytest.importorskip("matplotlib")
 TRAINING = Path(__file__).parent.parent / "training"
 sys.path.insert(0, str(TRAINING))
 
+import demonstration  # noqa: E402
 import evaluate_goals  # noqa: E402
 import train  # noqa: E402
 from command_line import UsageError  # noqa: E402
 from goal_report import table, verdict  # noqa: E402
-from goal_search import score_of  # noqa: E402
+from goal_search import SearchSize, score_of, searched  # noqa: E402
 from goal_trials import Flight, fly  # noqa: E402
-from pilots import FAMILIES, PARK, Cycle, Steered  # noqa: E402
+from pilots import FAMILIES, PARK, Cycle, Learned, Steered  # noqa: E402
 from training_settings import CONFIGS, SCENES, read_settings  # noqa: E402
 
 from magworm_gym import MagWormVectorEnv, Scene, load_scene  # noqa: E402
@@ -41,6 +42,7 @@ starts = 1
 duration_s = 0.4
 animation_s = 0.2
 """
+SHORT = SearchSize(seeds=1, scouts=4, population=4, generations=1, starts=1, duration_s=0.2)
 HOLD = Cycle(np.array([0.04, 0.02]), np.array([[0.1, 0.2, 0.3, 0.4, 0.5], [-0.1, -0.2, -0.3, -0.4, -0.5]]))
 
 
@@ -107,8 +109,10 @@ def test_a_still_robot_reaches_nothing_and_is_not_lost() -> None:
 
 @pytest.mark.parametrize("task", ["turn", "reach"])
 def test_a_comparison_leaves_a_report_and_is_not_done_twice(
-    task: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    task: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(demonstration, "SEARCH", SHORT)
+    monkeypatch.setattr(demonstration, "STEPS", 10)
     budget, out = tmp_path / "tiny.toml", tmp_path / "run"
     budget.write_text(TINY)
     flags = [task, "--budget", str(budget), "--out", str(out), "--workers", "1"]
@@ -129,6 +133,54 @@ def test_a_comparison_leaves_a_report_and_is_not_done_twice(
     assert json.loads((out / "results.json").read_text()) == results
     with pytest.raises(UsageError, match="other settings"):
         evaluate_goals.main([task, "--budget", "smoke", "--out", str(out)])
+
+
+def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(demonstration, "SEARCH", SHORT)
+    monkeypatch.setattr(demonstration, "STEPS", 40)
+    monkeypatch.setattr(demonstration, "EPOCHS", 300)
+    config, out = tmp_path / "taught.toml", tmp_path / "run"
+    config.write_text(
+        "[run]\nscene = 'turn-3-pair.toml'\nnum_envs = 8\nsteps = 8\nseeds = [0]\nepisode_steps = 60\n"
+        "[policy]\nnormalise = true\nlog_std_init = -1.0\nteacher = 'pair'\n"
+        "[learning_rate]\nstart = 1e-9\nend = 1e-9\n[algorithm]\nn_steps = 8\n"
+    )
+    train.main(["turn", "--config", str(config), "--out", str(out)])
+    taught = json.loads((out / "seed-0" / "taught.json").read_text())
+    assert taught["steps"] == 40 * 8 + 8 * 10  # shown, and searched: eight trials of ten steps
+    scene = load_scene(SCENES / "turn-3-pair.toml")
+    family = FAMILIES["pair"]
+    found = searched(scene, "turn", family, SHORT, 0)
+    teacher = Steered([family.cycle(np.array(found["parameters"]), scene.stage_limits or {})])
+    worms = MagWormVectorEnv(8, scene, task="turn")
+    observations, _ = worms.reset(seed=5)
+    teacher.start(worms)
+    copy = Learned(out / "seed-0" / "policy", "ppo")
+    wrong, size = [], []
+    for _ in range(30):
+        wanted = teacher.act(observations)
+        wrong.append(np.square(copy.act(observations) - wanted).mean())
+        size.append(np.square(wanted - np.mean(wanted)).mean())
+        observations, *_ = worms.step(wanted)
+    assert np.mean(wrong) < 0.25 * np.mean(size)
+
+
+@pytest.mark.parametrize(
+    ("task", "extra", "sentence"),
+    [
+        ("turn", "teacher = 'owl'\nnormalise = true", "teacher is 'owl'"),
+        ("turn", "teacher = 'pair'", "a teacher goes with ppo"),
+        ("turn", "teacher = 'misaligned'\nnormalise = true", "another drive"),
+    ],
+)
+def test_teachers_that_do_not_fit_are_named(task: str, extra: str, sentence: str, tmp_path: Path) -> None:
+    config = tmp_path / "taught.toml"
+    config.write_text(
+        "[run]\nscene = 'turn-3-pair.toml'\nnum_envs = 4\nsteps = 8\nseeds = [0]\n"
+        f"[policy]\n{extra}\n[algorithm]\nn_steps = 8\n"
+    )
+    with pytest.raises(UsageError, match=sentence):
+        train.main([task, "--config", str(config), "--out", str(tmp_path / "run")])
 
 
 def rows(**samples: list[float]) -> list[dict[str, object]]:
