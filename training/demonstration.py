@@ -15,7 +15,7 @@ from training_settings import TrainingSettings
 from magworm_gym import Scene
 from magworm_gym.sb3 import MagWormVecEnv
 
-SEARCH = SearchSize(seeds=1, scouts=64, population=12, generations=4, starts=1, duration_s=4.0)
+SEARCH = SearchSize(seeds=1, scouts=96, population=16, generations=6, starts=2, duration_s=4.0)
 """How the teacher is found."""
 STEPS = 200
 NOISE = 0.15
