@@ -131,6 +131,8 @@ class GoalComparison:
                 asked = np.abs(self.goals) == angle
                 figures[f"time_to_{angle:.0f}_deg_s"] = float(time_s[asked].mean())
                 figures[f"reached_{angle:.0f}_deg_share"] = float(near[asked].mean())
+            if flight.way_m is not None:
+                figures["way_mm"] = float(MM_PER_M * flight.way_m.mean())
             figures["final_error_deg"] = float(np.abs(flight.left[-1]).mean())
             return figures
         figures["success_share"] = float((flight.left.min(axis=0) <= REACH_TOLERANCE_M).mean())

@@ -22,6 +22,7 @@ COLUMNS = {
     "time_to_90_deg_s": ("time to 90° [s]", 1.0),
     "reached_90_deg_share": ("90° reached [%]", 100.0),
     "final_error_deg": ("final heading error [°]", 1.0),
+    "way_mm": ("way of the centre [mm]", 1.0),
     "success_share": ("goal reached [%]", 100.0),
     "time_s": ("time to the goal [s]", 1.0),
     "final_distance_mm": ("final distance [mm]", 1.0),
@@ -104,7 +105,11 @@ def report(comparison: GoalComparison, rows: list[Row]) -> str:
     )
     if task == "turn":
         goals = ", ".join(f"{goal:+.0f}°" for goal in TURN_GOALS_DEG)
-        meaning = "Time to 30° and to 90°: until less than 3° are left for the first time of such a goal."
+        meaning = (
+            "Time to 30° and to 90°: until less than 3° are left for the first time of such a goal. The "
+            "task does not ask the robot to stay where it is: a long way of the centre means that the "
+            "magnets tow it, so what wins here need not be a gait."
+        )
         title, maximised = "Turning", "the shares of 30° and of 90° that are turned"
         steering = "they park the magnet while less than 2° are left"
     else:

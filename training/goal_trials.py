@@ -26,11 +26,13 @@ class Flight:
             left at the end of an episode is held.
         lost: Episodes in which the robot tipped over or broke (E,).
         step_s: Control step [s].
+        way_m: How far the centre went from its start until the episode ended (E,) [m]; None if unknown.
     """
 
     left: Floats
     lost: NDArray[np.bool_]
     step_s: float
+    way_m: Floats | None = None
 
     @property
     def duration_s(self) -> float:
@@ -59,10 +61,14 @@ def fly(
     worms, observations = _begun(scene, task, pilot, goals, seeds, duration_s)
     lost, over = np.zeros((2, len(goals)), np.bool_)
     lefts = [_left(worms)]
+    began = worms.batch.robot_poses()[:, :2].copy()
+    way_m = np.zeros(len(goals))
     for _ in range(worms.max_episode_steps):
         actions = pilot.act(observations)
         observations, _, terminated, truncated, infos = worms.step(actions)
         lefts.append(np.where(over, lefts[-1], _left(worms)))
+        gone = np.linalg.norm(worms.batch.robot_poses()[:, :2] - began, axis=1)
+        way_m = np.where(over, way_m, gone)
         timed = infos.get("time_limit", np.zeros(len(goals), np.bool_))
         ended = (terminated | truncated) & ~over
         lost |= ended & ~timed & ~(terminated & (task == "reach"))
@@ -71,7 +77,7 @@ def fly(
             lefts += [lefts[-1]] * (worms.max_episode_steps + 1 - len(lefts))
             break
     worms.close()
-    return Flight(np.array(lefts), lost, scene.control_step_s)
+    return Flight(np.array(lefts), lost, scene.control_step_s, way_m)
 
 
 def filmed(
