@@ -44,7 +44,7 @@ class Row:
     def share(self) -> float:
         """How much of the band is used up: 1 at its edge."""
         if self.error is not None:
-            return abs(self.error) / self.high
+            return abs(self.error) / self.high if self.error else 0.0
         value = self.measured[0]
         if math.isinf(self.low):
             return value / self.high

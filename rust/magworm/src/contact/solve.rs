@@ -24,8 +24,6 @@ pub const PATIENCE: usize = 8;
 /// Passes from which on friction reckons with the impulses that it has: what is left is a convex problem. Rigid
 /// feet may have no solution of Coulomb's law (the paradox of Painlevé).
 const FROZEN: usize = 14;
-/// Relative change of a reckoned normal impulse beyond which friction is no longer that of the point.
-const FAR: f64 = 0.5;
 
 /// Sine of the angle by which a direction of sliding may have turned before friction is linearised anew.
 const TURNED: f64 = 0.02;
@@ -71,8 +69,8 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
     !done
 }
 
-/// Where friction was frozen at an impulse that is far from the one found, or drives a point, what is closed
-/// sticks in this step. That is a projection, which only takes energy.
+/// Where frozen friction drives a point, what is closed sticks in this step. That is a projection, which only takes
+/// energy.
 pub fn hold<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
@@ -181,7 +179,7 @@ struct Change<M> {
     impulses: M,
     /// A sliding point has another velocity than friction was linearised about.
     directions: M,
-    /// Frozen friction of a sliding point is far from its normal impulse, or drives it.
+    /// Frozen friction drives a point.
     wild: M,
 }
 
@@ -317,9 +315,8 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
         let tolerance = after.normal * SETTLED + ground.negligible;
         if frozen {
             let slid = point.mode.eq(isa.splat(Mode::SLIDE));
-            let far = drift.gt(point.reckoned * FAR + ground.negligible);
             let driven = along::<I::F, D>(point.u_t, point.slip).lt(-ground.transition_speed);
-            change.wild = change.wild | (slid & (far | driven));
+            change.wild = change.wild | (slid & driven);
         }
         let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
         if D == 3 {
