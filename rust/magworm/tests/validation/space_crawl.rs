@@ -64,19 +64,19 @@ fn validates_presets_in_space() {
         let (pass, flat_pass) = (crawl(preset, PASS, 1.5, "3"), crawl(preset, PASS, 1.5, "2"));
         let off = |a: f64, b: f64| (a / b - 1.0).abs();
         case.at_most(
-            &format!("{preset}: lift"),
+            format!("{preset}: lift"),
             "relative",
             off(rise.peak_m, flat_rise.peak_m),
             0.01,
         );
         case.at_most(
-            &format!("{preset}: peak"),
+            format!("{preset}: peak"),
             "relative",
             off(pass.peak_m, flat_pass.peak_m),
             0.01,
         );
         let stride = off(pass.stride_m, flat_pass.stride_m);
-        case.at_most(&format!("{preset}: stride"), "relative", stride, 0.01);
+        case.at_most(format!("{preset}: stride"), "relative", stride, 0.01);
         roll = roll.max(rise.roll_rad).max(pass.roll_rad);
         heading = heading.max(rise.heading_rad.abs()).max(pass.heading_rad.abs());
     }
