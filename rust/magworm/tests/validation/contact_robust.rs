@@ -104,7 +104,8 @@ fn pass(case: Case) -> World {
 /// drives, but for one step and 1 % of them (the iterations are bounded, so some steps may end on the way).
 ///
 /// A rigid foot with friction above about 3 has no solution under Coulomb's law (Painlevé): pushing its toe
-/// back presses it down harder than the push. There, at 10, the robot may be flagged as broken instead.
+/// back presses it down harder than the push. There the robot may be flagged as broken instead, and a tenth of
+/// the steps may end beyond the cone.
 #[test]
 fn validates_robust_contact() {
     let (mut failures, mut sums) = (0, [0; 4]);
@@ -118,7 +119,7 @@ fn validates_robust_contact() {
             run.status == Status::NotFinite || modulus > 5e4 && run.status != Status::Running;
         let soluble = fixed < 3.0;
         if soluble && (broken || run.fastest > 3.0)
-            || run.beyond.max(run.driving) > 1 + run.steps / 100
+            || run.beyond.max(run.driving) > 1 + run.steps / if soluble { 100 } else { 10 }
         {
             println!(
                 "Δt {step} E {modulus:.0e} μ {fixed}/{moving} τ {damping}: {:?}, {:.2} m/s, {} beyond, {} driven of {} steps",
