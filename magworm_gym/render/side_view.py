@@ -26,7 +26,7 @@ from magworm_gym.render.palette import (
     TRAIL_OLD,
     mix,
 )
-from magworm_gym.render.window import Window
+from magworm_gym.render.window import Windowed
 
 Floats = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ TRAIL_POINTS = 480
 SMALLEST_LETTER_PX = 8.0
 
 
-class SideView:
+class SideView(Windowed):
     """Draws frames of one environment seen along -z: x to the right, y up.
 
     The scale is taken from the first frame (3.4 body lengths fill the width) and kept; the camera
@@ -82,7 +82,6 @@ class SideView:
         self._centre_m = centre_m
         self._horizon = horizon
         self._camera: Camera | None = None
-        self._window: Window | None = None
 
     def draw(
         self,
@@ -120,22 +119,6 @@ class SideView:
             self._draw_robot(canvas, camera, nodes, magnet_poses, present, trail)
         self._draw_text(canvas, text)
         return canvas.frame()
-
-    def show(self, frame: NDArray[np.uint8]) -> None:
-        """Shows a frame (H, W, 3) in a window, opened on the first call.
-
-        Raises:
-            ImportError: pygame is missing; the sentence names the extra to install.
-        """
-        if self._window is None:
-            self._window = Window(self.width, self.height)
-        self._window.show(frame)
-
-    def close(self) -> None:
-        """Closes the window, if one is open. May be called twice."""
-        if self._window is not None:
-            self._window.close()
-            self._window = None
 
     @property
     def _text_px(self) -> float:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from magworm_gym.render.side_view import SideView
 from magworm_gym.render.top_view import TopView
-from magworm_gym.render.window import Window
+from magworm_gym.render.window import Windowed
 
 if TYPE_CHECKING:
     from magworm_gym.tasks import Goal
@@ -21,7 +21,7 @@ SEPARATOR_GREY = 120
 SIDE_SPAN_BODY_LENGTHS = 2.6
 
 
-class SpaceView:
+class SpaceView(Windowed):
     """Draws frames of one environment in space; two panels, of one robot at one time.
 
     Left the robot from above, as :class:`~magworm_gym.render.top_view.TopView` draws it; right the same from
@@ -45,7 +45,6 @@ class SpaceView:
         self._top = TopView(geometry, top_width, height)
         self._side_width = width - top_width - SEPARATOR_PX
         self._side: SideView | None = None
-        self._window: Window | None = None
 
     def draw(
         self,
@@ -76,22 +75,6 @@ class SpaceView:
         side = self._draw_side(nodes, magnet_poses, present, drive_positions)
         line = np.full((self.height, SEPARATOR_PX, 3), SEPARATOR_GREY, dtype=np.uint8)
         return np.concatenate([top, line, side], axis=1)
-
-    def show(self, frame: NDArray[np.uint8]) -> None:
-        """Shows a frame (H, W, 3) in a window, opened on the first call.
-
-        Raises:
-            ImportError: pygame is missing; the sentence names the extra to install.
-        """
-        if self._window is None:
-            self._window = Window(self.width, self.height)
-        self._window.show(frame)
-
-    def close(self) -> None:
-        """Closes the window, if one is open. May be called twice."""
-        if self._window is not None:
-            self._window.close()
-            self._window = None
 
     def _draw_side(
         self, nodes: Floats, poses: Floats, present: NDArray[np.bool_], drives: Floats

@@ -38,3 +38,27 @@ class Window:
     def close(self) -> None:
         """Closes the window."""
         self._pygame.display.quit()
+
+
+class Windowed:
+    """A view that can show its frames in a window of their size."""
+
+    width: int
+    height: int
+    _window: Window | None = None
+
+    def show(self, frame: NDArray[np.uint8]) -> None:
+        """Shows a frame (H, W, 3) in a window, opened on the first call.
+
+        Raises:
+            ImportError: pygame is missing; the sentence names the extra to install.
+        """
+        if self._window is None:
+            self._window = Window(self.width, self.height)
+        self._window.show(frame)
+
+    def close(self) -> None:
+        """Closes the window, if one is open. May be called twice."""
+        if self._window is not None:
+            self._window.close()
+            self._window = None

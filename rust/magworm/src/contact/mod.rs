@@ -15,6 +15,7 @@
 //! u of the pass before, λ_t = −F d − (F/|u|)(I − d dᵀ)(u⁺ − u): beside the force along d a viscous one across
 //! it, which is Newton's iteration for Coulomb's law and enters the matrix as one more rank-one term.
 
+mod cone;
 mod divide;
 mod guess;
 mod law;
@@ -28,6 +29,7 @@ pub use points::detect;
 pub use settle::MEMORY;
 pub use solve::{PATIENCE, hold, solve};
 
+use crate::lanes::{Isa, Real};
 use crate::model::body_size;
 
 /// Most unknowns that a contact point moves with: position and rotation of a magnet.
@@ -50,4 +52,10 @@ impl Mode {
     pub const STICK: f64 = 1.0;
     /// On the ground, sliding.
     pub const SLIDE: f64 = 2.0;
+}
+
+/// Writes the lanes that are not done.
+#[inline(always)]
+fn store_unless<const W: usize, I: Isa<W>>(isa: I, done: I::M, new: I::F, row: &mut [f64; W]) {
+    isa.store(I::F::select(done, isa.load(row), new), row);
 }

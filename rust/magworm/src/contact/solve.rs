@@ -6,10 +6,11 @@
 //! with is extrapolated from the passes before (`settle`); both are iterated until nothing changes. Lanes
 //! that are done are frozen, so the passes a neighbour still needs do not touch their bits.
 
-use super::guess::{along, length};
-use super::law::{After, Ground, Point, jacobian, load2};
+use super::cone::{linearise, outdated, veer};
+use super::guess::along;
+use super::law::{Ground, Point, jacobian, load2};
 use super::settle::{forget, settle};
-use super::{MOST_DIRECTIONS, Mode, SLOTS};
+use super::{MOST_DIRECTIONS, Mode, SLOTS, store_unless};
 use crate::elastic::add_rank;
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::Model;
@@ -25,8 +26,6 @@ pub const PATIENCE: usize = 8;
 /// feet may have no solution of Coulomb's law (the paradox of Painlevé).
 const FROZEN: usize = 14;
 
-/// Sine of the angle by which a direction of sliding may have turned before friction is linearised anew.
-const TURNED: f64 = 0.02;
 /// Solves for the velocities at the end of the step into `next`, in at most `passes` passes; updates impulses
 /// and modes. Which lanes have not settled by then.
 pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
@@ -134,45 +133,6 @@ fn solve_assumed<const W: usize, const D: usize, I: Isa<W>>(
     );
 }
 
-/// Friction of sliding points about their velocity in the pass before: the direction p across it, and the
-/// viscosity F/|u| of a motion along p.
-#[inline(always)]
-fn linearise<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    stale: I::M,
-) {
-    for c in 0..model.contacts.len() {
-        let slip = load2::<W, 3, I>(isa, &block.slip, 2 * c);
-        let across = [-slip[1], slip[0]];
-        let viscosity = viscosity(isa, ground, block, c, isa.load(&block.speed[c]));
-        // u = (λ⁰ − ξ)/w, and ξ has no part across the direction.
-        let warm = load2::<W, 3, I>(isa, &block.warm, 3 * c + 1);
-        let about = along::<I::F, 3>(warm, across) / ground.weight;
-        let rows = [across[0], across[1], viscosity, about];
-        for k in 0..4 {
-            let row = &mut block.across[4 * c + k];
-            isa.store(I::F::select(stale, rows[k], isa.load(row)), row);
-        }
-    }
-}
-
-/// w F/|ξ| = F/|u| of a point that slides, no greater than the penalty; `speed` is |ξ|/w.
-#[inline(always)]
-fn viscosity<const W: usize, I: Isa<W>>(
-    isa: I,
-    ground: &Ground<I::F>,
-    block: &Block<W>,
-    c: usize,
-    speed: I::F,
-) -> I::F {
-    let friction = ground.friction(isa.load(&block.coefficient[c]), isa.load(&block.reckoned[c]));
-    let slowest = friction / ground.weight;
-    friction / speed.max(slowest).max(isa.splat(1e-30))
-}
-
 /// Which lanes a pass has changed.
 struct Change<M> {
     modes: M,
@@ -261,12 +221,6 @@ fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
     }
 }
 
-/// Writes the lanes that are not done.
-#[inline(always)]
-fn store_unless<const W: usize, I: Isa<W>>(isa: I, done: I::M, new: I::F, row: &mut [f64; W]) {
-    isa.store(I::F::select(done, isa.load(row), new), row);
-}
-
 /// Takes the solution over in lanes that are not done.
 #[inline(always)]
 fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
@@ -321,14 +275,8 @@ fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
         let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
         if D == 3 {
             let kept = done | parting;
+            let off = outdated(isa, ground, block, c, &point, &after);
             let strays = sliding & veer(isa, ground, block, c, &point, &after, kept).gt(tolerance);
-            let speed = length::<I::F, D>(point.held) / ground.weight;
-            let viscosity = viscosity(isa, ground, block, c, speed);
-            let assumed = isa.load(&block.across[4 * c + 2]);
-            let p = load2::<W, 3, I>(isa, &block.across, 4 * c);
-            let off = assumed.gt(viscosity * 2.0)
-                | assumed.lt(viscosity * 0.5)
-                | along::<I::F, 3>(after.slip, p).abs().gt(isa.splat(TURNED));
             change.directions = change.directions | (strays & off & !done);
             unsettled = unsettled | strays;
         }
@@ -375,31 +323,4 @@ fn parting<const W: usize, const D: usize, I: Isa<W>>(
         parting = parting | (was & !is) | (!was & is);
     }
     parting
-}
-
-/// How far the friction that a sliding point had in this pass is from that of the velocity found
-/// [N·s]; takes that velocity over.
-#[inline(always)]
-fn veer<const W: usize, I: Isa<W>>(
-    isa: I,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    c: usize,
-    point: &Point<I::F>,
-    after: &After<I::F>,
-    done: I::M,
-) -> I::F {
-    let friction = ground.friction(point.coefficient, point.reckoned);
-    let p = load2::<W, 3, I>(isa, &block.across, 4 * c);
-    let across = along::<I::F, 3>(point.u_t, p);
-    let viscous =
-        isa.load(&block.across[4 * c + 2]) * (across - isa.load(&block.across[4 * c + 3]));
-    let mut stray = point.slip;
-    for t in 0..2 {
-        stray[t] = (after.slip[t] - point.slip[t]) * friction - p[t] * viscous;
-    }
-    store_unless(isa, done, across, &mut block.across[4 * c + 3]);
-    let speed = length::<I::F, 3>(point.held) / ground.weight;
-    store_unless(isa, done, speed, &mut block.speed[c]);
-    length::<I::F, 3>(stray)
 }

@@ -1,6 +1,7 @@
 //! Places of the drive magnets relative to their stage.
 
 use crate::lanes::Real;
+use crate::lanes::math::round;
 use crate::scene::Arrangement;
 
 /// Offsets of the magnets along x, and the distance after which a belt comes round.
@@ -42,9 +43,7 @@ impl Layout {
         match self.circumference_m {
             None => x,
             Some(length) => {
-                // Adding and taking away 1.5 · 2^52 rounds to the nearest whole number.
-                let magic = 6_755_399_441_055_744.0;
-                let turns = ((x - robot) / length + magic) - magic;
+                let turns = round((x - robot) / length);
                 x - turns * length
             }
         }

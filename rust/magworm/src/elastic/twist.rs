@@ -21,14 +21,11 @@
 use super::frames::load3;
 use super::vector::{add_scaled, cross, dot, scaled};
 use super::{Equations, MOST, Places, Scheme, Springs, gather, gather_twist};
-use crate::lanes::math::{atan, atan2};
+use crate::lanes::math::{atan, atan2, round};
 use crate::lanes::{Isa, Real};
 use crate::model::{Bend, Model};
 use crate::scene::Curvature;
 use crate::state::Block;
-
-/// 1.5 · 2^52: adding and taking it away rounds to the nearest whole number.
-const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Adds the bending and twisting springs of all nodes to the equations of a step.
 #[inline(always)]
@@ -148,7 +145,7 @@ impl<F: Real> Joint<F> {
         let carried = add_scaled(&self.ue, -(dot(&self.ue, &self.tf) * self.over_chi), &tangents);
         let angle = atan2(dot(&carried, &self.sf) * -1.0, dot(&carried, &self.uf));
         let before = isa.load(&block.twist[k]);
-        let turns = ((before - angle) / std::f64::consts::TAU + ROUND) - ROUND;
+        let turns = round((before - angle) / std::f64::consts::TAU);
         let twist = angle + turns * std::f64::consts::TAU;
         let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
         isa.store(F::select(running, twist, before), &mut block.twist[k]);

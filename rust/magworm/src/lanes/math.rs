@@ -106,6 +106,12 @@ pub fn ln_ratio<F: Real>(p: F, q: F) -> F {
     e * LN_2_HIGH + (s + s + tail)
 }
 
+/// The nearest whole number, for magnitudes below 2^50.
+#[inline(always)]
+pub fn round<F: Real>(x: F) -> F {
+    x + ROUND - ROUND
+}
+
 /// Natural logarithm of a positive normal number.
 #[inline(always)]
 pub fn ln<F: Real>(x: F) -> F {
@@ -158,7 +164,7 @@ pub fn atan<F: Real>(x: F) -> F {
 /// Sine and cosine of an angle of up to 1000 rad in magnitude.
 #[inline(always)]
 pub fn sin_cos<F: Real>(x: F) -> (F, F) {
-    let k = x * std::f64::consts::FRAC_2_PI + ROUND - ROUND;
+    let k = round(x * std::f64::consts::FRAC_2_PI);
     let r = x - k * HALF_PI[0];
     let high = r - k * HALF_PI[1];
     let low = (r - high - k * HALF_PI[1]) - k * HALF_PI[2];
@@ -172,7 +178,7 @@ pub fn sin_cos<F: Real>(x: F) -> (F, F) {
     let cos = lead + ((-lead + 1.0 - half) + (z * z * polynomial(z, &COS) - r * low));
 
     // k mod 4 in −2..=2: odd swaps, 1 and ±2 negate.
-    let quarter = k - (k * 0.25 + ROUND - ROUND) * 4.0;
+    let quarter = k - round(k * 0.25) * 4.0;
     let one = x.splat(1.0);
     let odd = quarter.abs().eq(one);
     let turned = quarter.abs().eq(x.splat(2.0));
