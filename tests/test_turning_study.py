@@ -13,7 +13,8 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from magworm_gym import Recording
 from studies.turning.data import points_csv, tipping_csv
-from studies.turning.page import first_tipping, page
+from studies.turning.findings import first_tipping
+from studies.turning.page import page
 from studies.turning.passes import (
     Drive,
     Outcome,
