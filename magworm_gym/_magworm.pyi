@@ -153,7 +153,7 @@ class Batch:
         """(N, 3): x, z of the robot's centre [m] and its heading [rad], the yaw of the line from its head
         to its tail, from -π to π; in the plane z and heading are 0."""
     def counters(self) -> dict[str, int]:
-        """Work since construction, counted per block of lanes: steps, solves, factorisations, wrenches."""
+        """Work since construction, counted per block of lanes: steps, factorisations, trials, wrenches."""
     def get_state(self) -> bytes:
         """Everything that changes in time, bit for bit."""
     def set_state(self, state: bytes) -> None:

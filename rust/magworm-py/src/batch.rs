@@ -267,7 +267,7 @@ impl Batch {
         let counters = self.batch.counters();
         let dict = PyDict::new(py);
         dict.set_item("steps", counters.steps)?;
-        dict.set_item("solves", counters.solves)?;
+        dict.set_item("trials", counters.trials)?;
         dict.set_item("factorisations", counters.factorisations)?;
         dict.set_item("wrenches", counters.wrenches)?;
         Ok(dict)

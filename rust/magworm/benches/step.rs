@@ -69,9 +69,9 @@ fn main() {
     );
     println!("all threads, eight lanes {all:>10.0} environment steps/s");
     println!(
-        "per solver step of a block: {:.2} factorisations, {:.2} solves, {:.2} wrenches",
+        "per solver step of a block: {:.2} factorisations, {:.2} trials, {:.2} wrenches",
         per_step(work.factorisations),
-        per_step(work.solves),
+        per_step(work.trials),
         per_step(work.wrenches)
     );
 }

@@ -35,68 +35,13 @@ fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
     }
 }
 
-/// Parts of such a step.
-const PARTS: u32 = 4;
-
-/// One solver step in D dimensions. Lanes whose contacts do not settle take it in parts.
+/// One solver step in D dimensions, each line compiled for the instruction set on its own: as one function they would
+/// take a compiler minutes.
 fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     isa.vectorize(
         #[inline(always)]
         || move_drive::<W, D, I>(isa, model, block),
     );
-    block.dt_s = model.step_s;
-    motion::<W, D, I>(isa, model, block, true);
-    if block.divided[0].contains(&1.0) {
-        in_parts::<W, D, I>(isa, model, block);
-    }
-    count_step(block);
-    block.counters.steps += 1;
-}
-
-/// The rest of a step in the lanes whose contacts have not settled; the others stand still meanwhile.
-fn in_parts<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W>,
-) {
-    let (running, divided) = (block.running[0], block.divided[0]);
-    let parts = f64::from(PARTS);
-    block.running[0] = divided;
-    block.dt_s = model.step_s / parts;
-    isa.vectorize(
-        #[inline(always)]
-        || {
-            contact::divide::<W, D, I>(
-                isa,
-                model,
-                block,
-                isa.load(&divided).gt(isa.splat(0.0)),
-                parts,
-            )
-        },
-    );
-    for _ in 0..PARTS {
-        motion::<W, D, I>(isa, model, block, false);
-    }
-    isa.vectorize(
-        #[inline(always)]
-        || contact::join(isa, block, isa.load(&divided).gt(isa.splat(0.0)), parts),
-    );
-    for lane in 0..W {
-        let stands = block.status[lane] != Status::Running;
-        block.running[0][lane] = if stands { 0.0 } else { running[lane] };
-    }
-    block.counters.divided += 1;
-}
-
-/// Motion over the time step in force, each line compiled for the instruction set on its own: as one function
-/// they would take a compiler minutes. `may_divide`: lanes whose contacts do not settle soon wait, marked.
-fn motion<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W>,
-    may_divide: bool,
-) {
     isa.vectorize(
         #[inline(always)]
         || elastic::kinematics::<W, D, I>(isa, model, block),
@@ -105,28 +50,21 @@ fn motion<const W: usize, const D: usize, I: Isa<W>>(
         #[inline(always)]
         || integrate::assemble::<W, D, I>(isa, model, block),
     );
-    solve::<W, D, I>(isa, model, block, may_divide);
+    solve::<W, D, I>(isa, model, block);
     isa.vectorize(
         #[inline(always)]
         || commit::<W, D, I>(isa, model, block),
     );
+    block.counters.steps += 1;
 }
 
 /// Velocities at the end of the step, with contact where the scene has ground.
-fn solve<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W>,
-    may_divide: bool,
-) {
-    block.divided.fill([0.0; W]);
-    let Some(law) = &model.program.ground else {
-        block.factor.copy_from_slice(&block.matrix);
-        model.band.factor(isa, &mut block.factor);
+fn solve<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let Some(law) = model.program.ground.as_ref().filter(|_| !model.contacts.is_empty()) else {
+        model.system.kept().factor(isa, &mut block.matrix);
         block.next.copy_from_slice(&block.right);
-        model.band.solve(isa, &block.factor, &mut block.next);
+        model.system.kept().solve(isa, &block.matrix, &mut block.next);
         block.counters.factorisations += 1;
-        block.counters.solves += 1;
         return;
     };
     let ground = isa.vectorize(
@@ -134,31 +72,13 @@ fn solve<const W: usize, const D: usize, I: Isa<W>>(
         || {
             let of_static = isa.load(&block.factors[Parameter::StaticFriction as usize]);
             let of_dynamic = isa.load(&block.factors[Parameter::DynamicFriction as usize]);
-            contact::Ground::new(law, of_static, of_dynamic, block.dt_s)
+            contact::Ground::new(law, of_static, of_dynamic, model.step_s)
         },
     );
     contact::detect::<W, D, I>(isa, model, &ground, block);
-    let most = model.scene.solver.contact_iterations;
-    let passes = if may_divide { most.min(contact::PATIENCE) } else { most };
-    let unsettled = contact::solve::<W, D, I>(isa, model, &ground, block, passes);
-    if may_divide {
-        isa.vectorize(
-            #[inline(always)]
-            || {
-                let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
-                isa.store(I::F::select(unsettled, one, zero), &mut block.divided[0]);
-            },
-        );
-    } else {
-        contact::hold::<W, D, I>(isa, model, &ground, block);
-    }
-}
-
-/// Counts the step in the lanes that run.
-fn count_step<const W: usize>(block: &mut Block<W>) {
-    for lane in 0..W {
-        block.step_count[0][lane] += block.running[0][lane];
-    }
+    model.system.condense(isa, &mut block.matrix, &mut block.right);
+    contact::solve::<W, D, I>(isa, model, &ground, block);
+    model.system.recover(isa, &block.matrix, &block.right, &mut block.next);
 }
 
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
@@ -170,16 +90,17 @@ fn commit<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, bloc
     let intact = intact(isa, model, block);
     let above = above_ground::<W, D, I>(isa, model, block);
     let sound = finite & intact & above;
-    let goes = running & !isa.load(&block.divided[0]).eq(isa.splat(1.0));
-    if (goes & !sound).any() {
-        mark_broken(isa, block, goes, [finite, intact, above]);
+    if (running & !sound).any() {
+        mark_broken(isa, block, running, [finite, intact, above]);
     }
-    let go = goes & sound;
+    let go = running & sound;
+    let count = isa.load(&block.step_count[0]);
+    isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
     for dof in 0..model.coordinates.count {
         let (q, v) = (isa.load(&block.q[dof]), isa.load(&block.v[dof]));
         let next = isa.load(&block.next[dof]);
         isa.store(I::F::select(go, next, v), &mut block.v[dof]);
-        isa.store(I::F::select(go, q + next * block.dt_s, q), &mut block.q[dof]);
+        isa.store(I::F::select(go, q + next * model.step_s, q), &mut block.q[dof]);
     }
     if D == 3 {
         elastic::turn(isa, model, block, go);

@@ -1,11 +1,12 @@
-//! The modes that a step starts with, and directions along the ground.
+//! What a step starts from, before anything is known of its end, and directions along the ground.
 
-use super::{Ground, Mode};
+use super::law::{Ground, Point, Response};
+use super::{Mode, Vector, Workspace, store_vector};
 use crate::lanes::{Isa, Real};
 use crate::state::Block;
 
-/// Speed below which a direction has no meaning [m/s].
-const STILL_M_S: f64 = 1e-30;
+/// Length below which a vector has no direction.
+const STILL: f64 = 1e-30;
 
 /// Length of a vector along the ground: its one component in the plane, two in space.
 #[inline(always)]
@@ -21,59 +22,113 @@ pub(super) fn direction<F: Real, const D: usize>(a: [F; 2]) -> [F; 2] {
         return [one.copysign(a[0]), zero];
     }
     let length = length::<F, D>(a);
-    let still = length.lt(one * STILL_M_S);
+    let still = length.lt(one * STILL);
     let over = one / F::select(still, one, length);
     [F::select(still, one, a[0] * over), F::select(still, zero, a[1] * over)]
 }
 
-/// a · b along the ground.
-#[inline(always)]
-pub(super) fn along<F: Real, const D: usize>(a: [F; 2], b: [F; 2]) -> F {
-    if D == 2 { a[0] * b[0] } else { a[0] * b[0] + a[1] * b[1] }
-}
-
-/// A point that was closed, or is about to pass through the ground, starts closed. Its speed at the start
-/// of the step decides: up to v_d it starts sticking and μ_s holds for the step, beyond it slides on
-/// against μ_d. One coefficient per step keeps the law monotone, and its limit for small steps is the
-/// paper's.
+/// Coefficient, λ⁰ and first response of a point that moves with u at the start of the step (`u_n`: with its approach).
+///
+/// A point that was closed, or is about to pass through the ground, is taken as closed. Its speed at the start of the
+/// step decides: up to v_d μ_s holds for the step, beyond it μ_d. One coefficient per step keeps the law
+/// monotone, and its limit for small steps is the paper's.
 #[inline(always)]
 pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     c: usize,
-    u_n: I::F,
-    u_t: [I::F; 2],
+    u: &Vector<I::F>,
+    approach: I::F,
 ) {
     let zero = isa.splat(0.0);
-    let (open, stick, slide) =
-        (isa.splat(Mode::OPEN), isa.splat(Mode::STICK), isa.splat(Mode::SLIDE));
+    let (open, slide) = (isa.splat(Mode::OPEN), isa.splat(Mode::SLIDE));
     let before = isa.load(&block.mode[c]);
-    isa.store(before, &mut block.mode_before[c]);
     let was_closed = !before.eq(open);
-    let closed = was_closed | u_n.lt(zero);
-    let speed = length::<I::F, D>(u_t);
+    let closed = was_closed | (u[0] + approach).lt(zero);
+    let along = [u[1], u[2]];
+    let speed = length::<I::F, D>(along);
     let slow = speed.le(ground.transition_speed);
-    // One that slid goes on until its velocity reverses: a guess that it sticks would ask for its whole
-    // momentum within one step, which no friction has.
-    let moving = I::F::select(slow & !before.eq(slide), stick, slide);
-    let guess = I::F::select(closed, moving, open);
-    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    isa.store(I::F::select(running, guess, before), &mut block.mode[c]);
-    let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
-    isa.store(coefficient, &mut block.coefficient[c]);
-    let stuck = before.eq(stick);
+    // One that slid goes on: a guess that it sticks would ask for its whole momentum within one step, which no
+    // friction has.
+    let sticks = slow & !before.eq(slide);
     let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);
-    isa.store(normal, &mut block.warm[D * c]);
-    let slip = direction::<I::F, D>(u_t);
+    let mut warm = [normal, zero, zero];
     for t in 0..D - 1 {
-        let row = (D - 1) * c + t;
-        let tangential = I::F::select(stuck, isa.load(&block.tangential[row]), zero);
-        isa.store(tangential, &mut block.warm[D * c + 1 + t]);
-        isa.store(slip[t], &mut block.slip[row]);
+        warm[1 + t] = I::F::select(was_closed, isa.load(&block.tangential[(D - 1) * c + t]), zero);
     }
-    if D == 3 {
-        isa.store(speed, &mut block.speed[c]);
+    let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
+    let point = Point { warm, coefficient, bound: zero };
+    let response = assumed::<I::F, D>(&point, ground, along, speed, approach, closed, sticks);
+    let everywhere = zero.eq(zero);
+    let work = &mut block.contact;
+    isa.store(coefficient, &mut work.coefficient[c]);
+    isa.store(approach, &mut work.approach[c]);
+    store_vector::<W, D, I>(isa, everywhere, &warm, &mut work.warm, c);
+    response.store(isa, everywhere, &mut work.response, c);
+    isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
+}
+
+/// Another start, where the first led nowhere: what touches at the start of the step sticks, or slides without friction.
+#[inline(always)]
+pub(super) fn restart<const W: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    work: &mut Workspace<W>,
+    dimensions: usize,
+    c: usize,
+    sticks: bool,
+    mask: I::M,
+) {
+    let zero = isa.splat(0.0);
+    let touching = isa.load(&work.touching[c]).gt(zero);
+    let normal = I::F::select(touching, ground.weight, zero);
+    let held = if sticks { normal } else { zero };
+    let kept = I::F::select(touching, isa.splat(1.0), zero);
+    let warm = |k: usize| isa.load(&work.warm[dimensions * c + k]) * kept;
+    let mut force = [-(normal * isa.load(&work.approach[c])), zero, zero];
+    if sticks {
+        force[1] = warm(1);
+        force[2] = if dimensions == 3 { warm(2) } else { zero };
     }
-    isa.store(normal, &mut block.reckoned[c]);
+    let response = Response { force, normal, drag: [zero; 2], along: [held, zero, held] };
+    response.store(isa, mask, &mut work.response, c);
+}
+
+/// The response of a point in an assumed mode: open; sticking; or sliding on in the direction in which it moves, against
+/// friction that follows the normal impulse, with F/|u| across (the derivative of a direction).
+#[inline(always)]
+#[allow(clippy::too_many_arguments)] // a kernel: a struct of arguments would be copied
+fn assumed<F: Real, const D: usize>(
+    point: &Point<F>,
+    ground: &Ground<F>,
+    along: [F; 2],
+    speed: F,
+    approach: F,
+    closed: F::Mask,
+    sticks: F::Mask,
+) -> Response<F> {
+    let (zero, w) = (speed.splat(0.0), ground.weight);
+    let d = direction::<F, D>(along);
+    let normal = F::select(closed, w, zero);
+    let pressed = F::select(closed, -(w * approach), zero);
+    let drag = F::select(sticks, zero, point.coefficient * normal);
+    let adhesion = ground.friction(zero, point.warm[0]);
+    let sliding = F::select(closed, point.coefficient * pressed + adhesion, zero);
+    let friction = ground.friction(point.coefficient, point.warm[0]);
+    let slowest = friction / w;
+    let viscosity = F::select(closed, friction / (speed + slowest).max(w.splat(STILL)), zero);
+    let stuck = F::select(sticks, normal, viscosity);
+    let lost = F::select(sticks, zero, viscosity);
+    let mut force = [pressed, zero, zero];
+    for t in 0..D - 1 {
+        force[1 + t] = F::select(sticks, F::select(closed, point.warm[1 + t], zero), -(sliding * d[t]));
+    }
+    let xx = if D == 2 { stuck - lost } else { stuck - lost * d[0] * d[0] };
+    Response {
+        force,
+        normal,
+        drag: [-(drag * d[0]), -(drag * d[1])],
+        along: [xx, -(lost * d[0] * d[1]), stuck - lost * d[1] * d[1]],
+    }
 }

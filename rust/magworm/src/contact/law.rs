@@ -1,14 +1,9 @@
-//! The laws of contact at one point: what a pass has found, and what Signorini's and Coulomb's laws make of it.
-//!
-//! Friction is read from the augmented impulse ξ = λ⁰ − w u_t (Alart & Curnier 1991): within the cone the point
-//! sticks with λ_t = ξ; beyond it slides with λ_t = F ξ/|ξ|, which is −F u_t/|u_t| where it moves. So a point that
-//! slides while its foot is held by others has a direction too.
+//! The laws of contact at one point, and their derivative.
 
-use super::guess::{along, direction, length};
-use super::{MOST_DIRECTIONS, Mode, SLOTS, jacobian_rows};
+use super::guess::{direction, length};
+use super::{Mode, Vector};
 use crate::lanes::{Isa, Real};
-use crate::model::{GroundLaw, Model, body_size};
-use crate::state::Block;
+use crate::model::GroundLaw;
 
 /// Adhesion is at most this multiple of the normal impulse. The paper's D_f is there however lightly a point touches
 /// and gone where it does not: where its lever lifts the point, neither holds. So it fades within the last
@@ -26,21 +21,15 @@ pub struct Ground<F> {
     pub adhesion: F,
     /// v_d [m/s].
     pub transition_speed: F,
-    /// w [kg].
+    /// w = k Δt (Δt + τ) [kg].
     pub weight: F,
-    /// Impulse below which changes do not matter [N·s].
-    pub negligible: F,
-    /// Speed below which an open point does not sink [m/s]: what a closed one beside it may still be off.
-    pub slack: F,
+    /// k Δt τ, the part of w that is viscous [kg].
+    pub viscous: F,
+    /// Δt + τ [s].
+    pub lead_s: F,
 }
 
 impl<F: Real> Ground<F> {
-    /// μ λ_n + D_f Δt, the greatest tangential impulse.
-    #[inline(always)]
-    pub(super) fn friction(&self, coefficient: F, normal: F) -> F {
-        coefficient * normal + self.adhesion.min(normal * GRAZE)
-    }
-
     /// The law in the lanes of a block.
     #[inline(always)]
     pub fn new(law: &GroundLaw, static_factor: F, dynamic_factor: F, dt: f64) -> Self {
@@ -52,155 +41,179 @@ impl<F: Real> Ground<F> {
             dynamic_friction: (dynamic_factor * law.dynamic_friction).min(static_friction),
             adhesion: one * (law.adhesion_n * dt),
             transition_speed: one * law.transition_speed_m_s,
-            weight: one * law.weight_kg,
-            // A ten-millionth of a node's weight over the step.
-            negligible: one * (law.node_mass_kg * 1e-7 * 9.81 * dt),
-            // The penalty's residual under ten times a node's weight.
-            slack: one * (law.node_mass_kg * 10.0 * 9.81 * dt / law.weight_kg),
+            weight: one * (law.stiffness_n_m * dt * (dt + law.damping_time_s)),
+            viscous: one * (law.stiffness_n_m * dt * law.damping_time_s),
+            lead_s: one * (dt + law.damping_time_s),
         }
+    }
+
+    /// μ λ_n + D_f Δt, the greatest tangential impulse.
+    #[inline(always)]
+    pub(super) fn friction(&self, coefficient: F, normal: F) -> F {
+        coefficient * normal + self.adhesion.min(normal * GRAZE)
+    }
+
+    /// Its derivative by the normal impulse.
+    #[inline(always)]
+    fn friction_slope(&self, coefficient: F, normal: F) -> F {
+        let grazes = (normal * GRAZE).lt(self.adhesion);
+        F::select(grazes, coefficient + GRAZE, coefficient)
     }
 }
 
-/// A contact point after a pass, under the mode it was assumed in.
+/// A contact point in one step.
 pub(super) struct Point<F> {
-    pub(super) mode: F,
-    /// λ_n if it was closed.
-    pub(super) normal: F,
-    /// λ_n that bounds friction.
-    pub(super) bound: F,
-    /// λ_t if it was sticking.
-    pub(super) held: [F; 2],
-    /// λ_n that friction reckoned with.
-    pub(super) reckoned: F,
-    /// μ of this step.
+    pub(super) warm: Vector<F>,
     pub(super) coefficient: F,
-    /// d that friction reckoned with.
-    pub(super) slip: [F; 2],
-    pub(super) u_n: F,
-    pub(super) u_t: [F; 2],
+    /// The greatest tangential impulse, where it does not follow the normal one.
+    pub(super) bound: F,
 }
 
-/// Mode, impulses and direction of sliding that the laws ask for.
-pub(super) struct After<F> {
-    pub(super) mode: F,
-    pub(super) normal: F,
-    pub(super) tangential: [F; 2],
-    pub(super) slip: [F; 2],
+/// Impulses at a velocity, and what they were read from.
+pub(super) struct Impulse<F: Real> {
+    /// λ.
+    pub(super) impulse: Vector<F>,
+    /// λ_n > 0.
+    pub(super) closed: F::Mask,
+    /// |ξ_t| > F.
+    pub(super) slides: F::Mask,
+    /// F/|ξ_t| where it slides, else 1.
+    pub(super) share: F,
+    /// ξ_t/|ξ_t|.
+    pub(super) pushed: [F; 2],
+}
+
+impl<F: Real> Impulse<F> {
+    /// The mode that these are the impulses of.
+    #[inline(always)]
+    pub(super) fn mode(&self) -> F {
+        let of = |mode| self.share.splat(mode);
+        let closed = F::select(self.slides, of(Mode::SLIDE), of(Mode::STICK));
+        F::select(self.closed, closed, of(Mode::OPEN))
+    }
 }
 
 impl<F: Real> Point<F> {
+    /// λ(u): the normal part of ξ where it presses, the tangential part cut to the cone. `frozen`: to the bound.
     #[inline(always)]
-    pub(super) fn found<const W: usize, const D: usize, I: Isa<W, F = F, M = F::Mask>>(
-        isa: I,
-        model: &Model,
+    pub(super) fn impulse<const D: usize>(
+        &self,
         ground: &Ground<F>,
-        block: &Block<W>,
-        c: usize,
+        u: &Vector<F>,
+        frozen: bool,
+    ) -> Impulse<F> {
+        let (zero, one) = (u[0].splat(0.0), u[0].splat(1.0));
+        let augmented = -(ground.weight * u[0]);
+        let mut along = [zero; 2];
+        for t in 0..D - 1 {
+            along[t] = self.warm[1 + t] - ground.weight * u[1 + t];
+        }
+        let normal = augmented.max(zero);
+        let friction =
+            if frozen { self.bound } else { ground.friction(self.coefficient, normal) };
+        let grip = length::<F, D>(along);
+        let slides = grip.gt(friction);
+        let share = F::select(slides, friction / F::select(slides, grip, one), one);
+        let impulse = [normal, along[0] * share, along[1] * share];
+        let pushed = direction::<F, D>(along);
+        Impulse { impulse, closed: augmented.gt(zero), slides, share, pushed }
+    }
+}
+
+/// Rows of a stored response.
+pub(super) const RESPONSE: usize = 9;
+
+/// Impulses linear in the velocity without the approach: λ = `force` − C u with
+///
+/// ```text
+///     | normal   0    0  |
+/// C = | drag_x   xx   xz |
+///     | drag_z   xz   zz |
+/// ```
+pub(super) struct Response<F> {
+    pub(super) force: Vector<F>,
+    pub(super) normal: F,
+    pub(super) drag: [F; 2],
+    /// xx, xz, zz.
+    pub(super) along: [F; 3],
+}
+
+impl<F: Real> Response<F> {
+    /// The law linearised at the velocity u.
+    #[inline(always)]
+    pub(super) fn at<const D: usize>(
+        point: &Point<F>,
+        ground: &Ground<F>,
+        found: &Impulse<F>,
+        u: &Vector<F>,
+        approach: F,
         frozen: bool,
     ) -> Self {
-        let stencil = &model.contacts[c].stencil;
-        let zero = isa.splat(0.0);
-        let mut rows = [[zero; SLOTS]; MOST_DIRECTIONS];
-        jacobian::<W, D, I>(isa, block, c, &mut rows);
-        let mut u = [zero; MOST_DIRECTIONS];
-        for slot in 0..stencil.count {
-            let velocity = isa.load(&block.next[stencil.dofs[slot]]);
-            for direction in 0..D {
-                u[direction] = u[direction] + rows[direction][slot] * velocity;
-            }
-        }
-        let u_n = u[0] + isa.load(&block.approach[c]);
-        let (mut u_t, mut held) = ([zero; 2], [zero; 2]);
-        for t in 0..D - 1 {
-            u_t[t] = u[1 + t];
-            held[t] = isa.load(&block.warm[D * c + 1 + t]) - ground.weight * u_t[t];
-        }
-        let normal = isa.load(&block.warm[D * c]) - ground.weight * u_n;
-        let reckoned = isa.load(&block.reckoned[c]);
-        Self {
-            mode: isa.load(&block.mode[c]),
+        let (zero, w) = (u[0].splat(0.0), ground.weight);
+        let normal = F::select(found.closed, w, zero);
+        let slope = ground.friction_slope(point.coefficient, found.impulse[0]);
+        let dragged = if frozen { zero } else { F::select(found.slides, normal * slope, zero) };
+        // w F/|ξ| across the direction of sliding, 0 along it: Coulomb's cone.
+        let across = F::select(found.slides, found.share * w, w);
+        let lost = F::select(found.slides, across, zero);
+        let e = found.pushed;
+        let mut response = Self {
+            force: found.impulse,
             normal,
-            bound: if frozen { reckoned } else { normal.max(isa.splat(0.0)) },
-            held,
-            reckoned,
-            coefficient: isa.load(&block.coefficient[c]),
-            slip: load2::<W, D, I>(isa, &block.slip, (D - 1) * c),
-            u_n,
-            u_t,
+            drag: [dragged * e[0], dragged * e[1]],
+            along: [across - lost * e[0] * e[0], -(lost * e[0] * e[1]), across - lost * e[1] * e[1]],
+        };
+        if D == 2 {
+            // Exactly 0 where it slides.
+            response.along[0] = across - lost;
+        }
+        let known = [u[0] - approach, u[1], u[2]];
+        let back = response.times::<D>(&known);
+        for k in 0..D {
+            response.force[k] = response.force[k] + back[k];
+        }
+        response
+    }
+
+    /// C u.
+    #[inline(always)]
+    fn times<const D: usize>(&self, u: &Vector<F>) -> Vector<F> {
+        let zero = self.normal.splat(0.0);
+        let n = self.normal * u[0];
+        if D == 2 {
+            return [n, self.drag[0] * u[0] + self.along[0] * u[1], zero];
+        }
+        let x = self.drag[0] * u[0] + self.along[0] * u[1] + self.along[1] * u[2];
+        let z = self.drag[1] * u[0] + self.along[1] * u[1] + self.along[2] * u[2];
+        [n, x, z]
+    }
+
+    #[inline(always)]
+    pub(super) fn load<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+        isa: I,
+        rows: &[[f64; W]],
+        c: usize,
+    ) -> Self {
+        let row = |k: usize| isa.load(&rows[RESPONSE * c + k]);
+        Self {
+            force: [row(0), row(1), row(2)],
+            normal: row(3),
+            drag: [row(4), row(5)],
+            along: [row(6), row(7), row(8)],
         }
     }
 
     #[inline(always)]
-    pub(super) fn after<const W: usize, const D: usize, I: Isa<W, F = F, M = F::Mask>>(
+    pub(super) fn store<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
         &self,
         isa: I,
-        ground: &Ground<F>,
-    ) -> After<F> {
-        let zero = isa.splat(0.0);
-        let (open, stick) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
-        let slide = isa.splat(Mode::SLIDE);
-        let is_open = self.mode.eq(open);
-        let is_stuck = self.mode.eq(stick);
-
-        // Open points: close where they would sink, sticking if slow.
-        let sinks = self.u_n.lt(-ground.slack);
-        let slow = length::<F, D>(self.u_t).le(ground.transition_speed);
-        let from_open = F::select(sinks, F::select(slow, stick, slide), open);
-
-        // Closed points: open where they would pull, else hold or slide. Friction opposes sliding.
-        let normal = self.normal.max(zero);
-        let limit = ground.friction(self.coefficient, self.bound);
-        let grip = length::<F, D>(self.held);
-        let slips = grip.gt(limit);
-        let from_stick = F::select(slips, slide, stick);
-        let pushed = direction::<F, D>([-self.held[0], -self.held[1]]);
-        let reverses = along::<F, D>(pushed, self.slip).lt(zero) | !slips;
-        let from_slide = F::select(reverses, stick, slide);
-        let pulls = self.normal.lt(zero);
-        let from_closed = F::select(pulls, open, F::select(is_stuck, from_stick, from_slide));
-
-        let mode = F::select(is_open, from_open, from_closed);
-        let normal = F::select(is_open, zero, normal);
-        let friction = limit;
-        let landing = direction::<F, D>(self.u_t);
-        // Within the cone even where the passes run out: the next step starts from it.
-        let within = if D == 2 { F::select(slips, limit, grip) } else { limit / grip.max(limit) };
-        let mut after = After { mode, normal, tangential: [zero; 2], slip: [zero; 2] };
-        for t in 0..D - 1 {
-            after.slip[t] = F::select(is_open, landing[t], pushed[t]);
-            let held = if D == 2 { -(within * pushed[t]) } else { self.held[t] * within };
-            let sliding = -(friction * after.slip[t]);
-            let tangential = F::select(mode.eq(stick), held, sliding);
-            after.tangential[t] = F::select(mode.eq(open) | is_open, zero, tangential);
-        }
-        after
-    }
-}
-
-/// The rows of a contact's Jacobian: normal, then along x, in space along z.
-#[inline(always)]
-pub(super) fn jacobian<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    block: &Block<W>,
-    contact: usize,
-    rows: &mut [[I::F; SLOTS]; MOST_DIRECTIONS],
-) {
-    let first = jacobian_rows(D) * contact;
-    let stored = &block.jacobian[first..first + jacobian_rows(D)];
-    for direction in 0..D {
-        for slot in 0..body_size(D) {
-            rows[direction][slot] = isa.load(&stored[body_size(D) * direction + slot]);
+        mask: I::M,
+        rows: &mut [[f64; W]],
+        c: usize,
+    ) {
+        let [f, d, a] = [self.force, [self.normal, self.drag[0], self.drag[1]], self.along];
+        for (k, value) in [f[0], f[1], f[2], d[0], d[1], d[2], a[0], a[1], a[2]].into_iter().enumerate() {
+            super::store_where(isa, mask, value, &mut rows[RESPONSE * c + k]);
         }
     }
-}
-
-/// A vector along the ground: D − 1 rows.
-#[inline(always)]
-pub(super) fn load2<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    rows: &[[f64; W]],
-    first: usize,
-) -> [I::F; 2] {
-    let second = if D == 3 { isa.load(&rows[first + 1]) } else { isa.splat(0.0) };
-    [isa.load(&rows[first]), second]
 }

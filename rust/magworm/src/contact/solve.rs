@@ -1,326 +1,358 @@
-//! The velocities at the end of a step, with contact: an active-set iteration on one banded system.
+//! The velocities at the end of a step, with contact: Newton's iteration on S v − s = Jᵀ λ(J v).
 //!
-//! Each pass assumes a mode for every contact, solves, and holds what it found against the laws (`law`): a
-//! closed point that would pull opens, an open one that would sink closes, a sticking one beyond
-//! μ λ_n + D_f Δt slides, a sliding one that would be held sticks. The normal impulse that friction reckons
-//! with is extrapolated from the passes before (`settle`); both are iterated until nothing changes. Lanes
-//! that are done are frozen, so the passes a neighbour still needs do not touch their bits.
+//! λ is piecewise smooth, so its derivative is that of the piece where it stands (semismooth Newton; Alart &
+//! Curnier 1991). The first iterate solves the system of the modes that the step starts from; in most steps it is
+//! the solution. Rigid feet may have no solution of Coulomb's law (the paradox of Painlevé), and the iteration may go
+//! round: after half of the passes friction is *frozen* at the normal impulses found so far. What is left
+//! minimises a convex energy, and the search finds it.
 
-use super::cone::{linearise, outdated, veer};
-use super::guess::along;
-use super::law::{Ground, Point, jacobian, load2};
-use super::settle::{forget, settle};
-use super::{MOST_DIRECTIONS, Mode, SLOTS, store_unless};
-use crate::elastic::add_rank;
+use super::guess::restart;
+use super::law::{Ground, Point, Response};
+use super::points::point_velocity;
+use super::search::Search;
+use super::system::{add_force, arm, solve_linearised};
+use super::{Workspace, load_vector, store_vector, store_where};
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::Model;
 use crate::state::Block;
 
-/// Relative change of a reckoned normal impulse below which it counts as settled.
-const SETTLED: f64 = 1e-5;
-/// Passes in which everything may change at once: modes, directions and the impulses that friction reckons with.
-/// That may go round and round, so from here on what touches is settled first, with the friction of the pass
-/// before; then friction takes half of what it found.
-pub const PATIENCE: usize = 8;
-/// Passes from which on friction reckons with the impulses that it has: what is left is a convex problem. Rigid
-/// feet may have no solution of Coulomb's law (the paradox of Painlevé).
-const FROZEN: usize = 14;
+/// Residual of a solution relative to s.
+const TOLERANCE: f64 = 1e-9;
+const AGREED: f64 = 1e-3;
 
-/// Solves for the velocities at the end of the step into `next`, in at most `passes` passes; updates impulses
-/// and modes. Which lanes have not settled by then.
+/// Solves for the velocities of the kept unknowns at the end of the step into `next`; updates impulses and modes.
 pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
-    passes: usize,
-) -> I::M {
+) {
+    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     isa.vectorize(
         #[inline(always)]
-        || iterate::<W, D, I>(isa, model, ground, block, passes),
-    )
+        || start::<W, D, I>(isa, model, block),
+    );
+    let share = model.scene.solver.contact_iterations.div_ceil(STARTS.len());
+    let mut left = running;
+    for from in STARTS {
+        begin::<W, D, I>(isa, model, ground, block, left, from);
+        left = iterate::<W, D, I>(isa, model, ground, block, left, from, share);
+        if !left.any() {
+            break;
+        }
+    }
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.next[unknown] = block.contact.known[row];
+    }
 }
 
-#[inline(always)]
+/// What an iteration starts from, one after the other until one finds a solution.
+#[derive(Clone, Copy, PartialEq)]
+enum From {
+    /// Every point in the mode that it is most likely to be in.
+    Guess,
+    /// What touches sticks.
+    Stick,
+    /// What touches slides without friction.
+    Slide,
+    /// Where the last iteration ended, with friction bounded by the impulses of the step before.
+    Frozen,
+}
+
+const STARTS: [From; 4] = [From::Guess, From::Stick, From::Slide, From::Frozen];
+
+/// Starts an iteration in the lanes of a mask; its first trial is taken whatever it is.
+fn begin<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    mask: I::M,
+    from: From,
+) {
+    isa.vectorize(
+        #[inline(always)]
+        || {
+            for c in 0..model.contacts.len() {
+                match from {
+                    From::Guess => {}
+                    From::Stick | From::Slide => {
+                        let sticks = from == From::Stick;
+                        restart(isa, ground, &mut block.contact, D, c, sticks, mask);
+                    }
+                    From::Frozen => freeze::<W, D, I>(isa, ground, &mut block.contact, c),
+                }
+            }
+            let mut search = Search::load(isa, &block.contact.search);
+            let step = if from == From::Frozen { 0.0 } else { 1.0 };
+            search.retake(mask, isa.splat(step));
+            search.store(isa, &mut block.contact.search);
+        },
+    );
+    if from != From::Frozen {
+        solve_linearised::<W, D, I>(isa, model, block);
+        isa.vectorize(
+            #[inline(always)]
+            || turn::<W, D, I>(isa, model, block, mask),
+        );
+    }
+}
+
+/// Newton's iteration in the lanes of a mask; those that have not found a solution in so many trials.
 fn iterate<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
-    passes: usize,
+    mask: I::M,
+    from: From,
+    trials: usize,
 ) -> I::M {
-    let mut done = isa.load(&block.running[0]).eq(isa.splat(0.0));
-    let mut stale = !done;
-    block.wild.fill([0.0; W]);
-    forget(isa, block);
-    for pass in 0..passes {
-        let refactor = stale.any();
-        solve_assumed::<W, D, I>(isa, model, ground, block, done, refactor.then_some(stale));
-        let change = judge::<W, D, I>(isa, model, ground, block, done, pass);
-        let wild = I::F::select(change.wild, isa.splat(1.0), isa.splat(0.0));
-        store_unless(isa, done, wild, &mut block.wild[0]);
-        done = done | !(change.modes | change.impulses);
-        stale = (change.modes | change.directions) & !done;
-        if done.all() {
+    let frozen = from == From::Frozen;
+    let mut left = mask;
+    for trial in 1..=trials {
+        let taken = isa.vectorize(
+            #[inline(always)]
+            || attempt::<W, D, I>(isa, model, ground, block, left, frozen),
+        );
+        block.counters.trials += 1;
+        let mut solved = taken & Search::load(isa, &block.contact.search).solved();
+        if frozen && solved.any() {
+            solved = isa.vectorize(
+                #[inline(always)]
+                || relax::<W, D, I>(isa, model, ground, block, solved),
+            );
+        }
+        left = left & !solved;
+        if !left.any() || trial == trials {
             break;
         }
+        let turning = taken & left;
+        if turning.any() {
+            solve_linearised::<W, D, I>(isa, model, block);
+            isa.vectorize(
+                #[inline(always)]
+                || {
+                    turn::<W, D, I>(isa, model, block, turning);
+                    let mut search = Search::load(isa, &block.contact.search);
+                    search.begin(turning);
+                    search.store(isa, &mut block.contact.search);
+                },
+            );
+        }
     }
-    !done
+    left
 }
 
-/// Where frozen friction drives a point, what is closed sticks in this step. That is a projection, which only takes
-/// energy.
-pub fn hold<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-) {
-    isa.vectorize(
-        #[inline(always)]
-        || {
-            let wild = isa.load(&block.wild[0]).eq(isa.splat(1.0));
-            if wild.any() {
-                stick(isa, model, block, !wild);
-                solve_assumed::<W, D, I>(isa, model, ground, block, !wild, Some(wild));
-                judge::<W, D, I>(isa, model, ground, block, !wild, 0);
-            }
-        },
-    );
-}
-
-/// What is closed sticks.
+/// Before the first pass: nothing moves, and nothing is known.
 #[inline(always)]
-fn stick<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, done: I::M) {
-    let (open, stuck) = (isa.splat(Mode::OPEN), isa.splat(Mode::STICK));
+fn start<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    let kept = model.system.kept();
+    let symmetric = model.system.kept_entries(&block.matrix);
+    let work = &mut block.contact;
+    let mut size = zero;
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        let right = isa.load(&block.right[unknown]);
+        let diagonal = isa.load(&symmetric[kept.at(row, row)]);
+        // Multipliers have no mass; each system of theirs is solved as it is.
+        let heavy = diagonal.gt(zero);
+        let mobility = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
+        isa.store(mobility, &mut work.mobility[row]);
+        isa.store(-right, &mut work.imbalance[row]);
+        isa.store(zero, &mut work.known[row]);
+        size = size + right * right * mobility;
+    }
     for c in 0..model.contacts.len() {
-        let mode = isa.load(&block.mode[c]);
-        store_unless(isa, done, I::F::select(mode.eq(open), open, stuck), &mut block.mode[c]);
+        let mut velocity = [zero; 3];
+        velocity[0] = isa.load(&work.approach[c]);
+        store_vector::<W, D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
     }
+    Search::new(size * (TOLERANCE * TOLERANCE)).store(isa, &mut work.search);
 }
 
-/// Solves under the modes as they are assumed; `stale`: lanes whose matrix has changed, if any has.
-fn solve_assumed<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    done: I::M,
-    stale: Option<I::M>,
-) {
-    if let Some(stale) = stale {
-        isa.vectorize(
-            #[inline(always)]
-            || {
-                if D == 3 {
-                    linearise(isa, model, ground, block, stale);
-                }
-                assemble_matrix::<W, D, I>(isa, model, ground, block);
-            },
-        );
-        model.band.factor(isa, &mut block.factor);
-        block.counters.factorisations += 1;
-    }
-    isa.vectorize(
-        #[inline(always)]
-        || assemble_right::<W, D, I>(isa, model, ground, block),
-    );
-    model.band.solve(isa, &block.factor, &mut block.solution);
-    block.counters.solves += 1;
-    isa.vectorize(
-        #[inline(always)]
-        || accept(isa, block, done),
-    );
-}
-
-/// Which lanes a pass has changed.
-struct Change<M> {
-    modes: M,
-    impulses: M,
-    /// A sliding point has another velocity than friction was linearised about.
-    directions: M,
-    /// Frozen friction drives a point.
-    wild: M,
-}
-
+/// A new direction in the lanes of a mask, to the solution of the linearised system, and what changes along it.
 #[inline(always)]
-fn assemble_matrix<const W: usize, const D: usize, I: Isa<W>>(
+fn turn<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
     block: &mut Block<W>,
+    mask: I::M,
 ) {
-    block.factor.copy_from_slice(&block.matrix);
-    let zero = isa.splat(0.0);
-    let (mut rows, mut across) = ([[zero; SLOTS]; MOST_DIRECTIONS], [zero; SLOTS]);
+    let kept = model.system.kept();
+    let ghosts = kept.half_bandwidth();
+    let work = &mut block.contact;
+    for row in 0..kept.size() {
+        let change = isa.load(&work.target[ghosts + row]) - isa.load(&work.known[row]);
+        store_where(isa, mask, change, &mut work.direction[row]);
+    }
+    kept.multiply(isa, model.system.kept_entries(&block.matrix), &work.direction, &mut work.imbalance_change);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let mode = isa.load(&block.mode[c]);
-        let open = mode.eq(isa.splat(Mode::OPEN));
-        if open.all() {
-            continue;
-        }
-        let closed = I::F::select(open, zero, ground.weight);
-        let stuck = I::F::select(mode.eq(isa.splat(Mode::STICK)), ground.weight, zero);
-        jacobian::<W, D, I>(isa, block, c, &mut rows);
-        let (matrix, stencil) = (&mut *block.factor, &contact.stencil);
-        if D == 2 {
-            add_rank(isa, matrix, stencil, [&rows[0], &rows[1]], [closed, stuck]);
-        } else {
-            let [x, z] = load2::<W, 3, I>(isa, &block.across, 4 * c);
-            for slot in 0..SLOTS {
-                across[slot] = rows[1][slot] * x + rows[2][slot] * z;
-            }
-            let viscosity = isa.load(&block.across[4 * c + 2]);
-            let slides = I::F::select(mode.eq(isa.splat(Mode::SLIDE)), viscosity, zero);
-            let gradients = [&rows[0][..], &rows[1][..], &rows[2][..], &across[..]];
-            add_rank(isa, matrix, stencil, gradients, [closed, stuck, stuck, slides]);
-        }
+        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let change =
+            point_velocity::<W, D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
+        store_vector::<W, D, I>(isa, mask, &change, &mut work.velocity_change, c);
     }
 }
 
+/// One trial in the lanes that are left; which of them took it.
 #[inline(always)]
-fn assemble_right<const W: usize, const D: usize, I: Isa<W>>(
+fn attempt<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
     block: &mut Block<W>,
-) {
-    block.solution.copy_from_slice(&block.right);
-    let zero = isa.splat(0.0);
-    let mut rows = [[zero; SLOTS]; MOST_DIRECTIONS];
-    for (c, contact) in model.contacts.iter().enumerate() {
-        let mode = isa.load(&block.mode[c]);
-        let open = mode.eq(isa.splat(Mode::OPEN));
-        if open.all() {
-            continue;
-        }
-        let stuck = mode.eq(isa.splat(Mode::STICK));
-        let held = isa.load(&block.warm[D * c]) - ground.weight * isa.load(&block.approach[c]);
-        let coefficient = isa.load(&block.coefficient[c]);
-        let friction = ground.friction(coefficient, isa.load(&block.reckoned[c]));
-        let mut impulses = [I::F::select(open, zero, held); MOST_DIRECTIONS];
-        for t in 0..D - 1 {
-            let mut sliding = -(friction * isa.load(&block.slip[(D - 1) * c + t]));
-            if D == 3 {
-                let across =
-                    isa.load(&block.across[4 * c + 2]) * isa.load(&block.across[4 * c + 3]);
-                sliding = sliding + across * isa.load(&block.across[4 * c + t]);
-            }
-            let warm = isa.load(&block.warm[D * c + 1 + t]);
-            impulses[1 + t] = I::F::select(open, zero, I::F::select(stuck, warm, sliding));
-        }
-        jacobian::<W, D, I>(isa, block, c, &mut rows);
-        for slot in 0..contact.stencil.count {
-            let entry = &mut block.solution[contact.stencil.dofs[slot]];
-            let mut sum = isa.load(entry);
-            for direction in 0..D {
-                sum = sum + rows[direction][slot] * impulses[direction];
-            }
-            isa.store(sum, entry);
-        }
-    }
-}
-
-/// Takes the solution over in lanes that are not done.
-#[inline(always)]
-fn accept<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, done: I::M) {
-    for row in 0..block.solution.len() {
-        store_unless(isa, done, isa.load(&block.solution[row]), &mut block.next[row]);
-    }
-}
-
-/// Holds the solution against the laws: new modes, impulses and directions.
-fn judge<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    done: I::M,
-    pass: usize,
-) -> Change<I::M> {
-    isa.vectorize(
-        #[inline(always)]
-        || judge_all::<W, D, I>(isa, model, ground, block, done, pass),
-    )
-}
-
-#[inline(always)]
-fn judge_all<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &mut Block<W>,
-    done: I::M,
-    pass: usize,
-) -> Change<I::M> {
-    let zero = isa.splat(0.0);
-    let never = zero.lt(zero);
-    let mut change = Change { modes: never, impulses: never, directions: never, wild: never };
-    let frozen = pass >= FROZEN;
-    let parting =
-        if pass < PATIENCE { never } else { parting::<W, D, I>(isa, model, ground, block, frozen) };
-    for c in 0..model.contacts.len() {
-        let point = Point::found::<W, D, I>(isa, model, ground, block, c, frozen);
-        let after = point.after::<W, D, I>(isa, ground);
-        let moved = !after.mode.eq(point.mode);
-        let closed = !after.mode.eq(isa.splat(Mode::OPEN));
-        let sliding = closed & !after.mode.eq(isa.splat(Mode::STICK));
-        let drift = (after.normal - point.reckoned).abs();
-        let tolerance = after.normal * SETTLED + ground.negligible;
-        if frozen {
-            let slid = point.mode.eq(isa.splat(Mode::SLIDE));
-            let driven = along::<I::F, D>(point.u_t, point.slip).lt(-ground.transition_speed);
-            change.wild = change.wild | (slid & driven);
-        }
-        let mut unsettled = if frozen { never } else { sliding & drift.gt(tolerance) };
-        if D == 3 {
-            let kept = done | parting;
-            let off = outdated(isa, ground, block, c, &point, &after);
-            let strays = sliding & veer(isa, ground, block, c, &point, &after, kept).gt(tolerance);
-            change.directions = change.directions | (strays & off & !done);
-            unsettled = unsettled | strays;
-        }
-        change.modes = change.modes | (moved & !done);
-        change.impulses = change.impulses | (unsettled & !done);
-        let parted = point.mode.eq(isa.splat(Mode::OPEN)) | !closed;
-        let waits = parting & !parted;
-        store_unless(isa, done | waits, after.mode, &mut block.mode[c]);
-        store_unless(isa, done, after.normal, &mut block.normal[c]);
-        if frozen {
-            // One that opens now has no friction if it closes again, or it might take turns.
-            let opens = !done & after.mode.eq(isa.splat(Mode::OPEN));
-            let row = &mut block.reckoned[c];
-            isa.store(I::F::select(opens, zero, isa.load(row)), row);
-        }
-        for t in 0..D - 1 {
-            let row = (D - 1) * c + t;
-            store_unless(isa, done, after.tangential[t], &mut block.tangential[row]);
-            store_unless(isa, done | waits, after.slip[t], &mut block.slip[row]);
-        }
-    }
-    if !frozen {
-        let pace = if pass < PATIENCE { 1.0 } else { 0.5 };
-        settle(isa, model, block, done | parting, change.modes, pace);
-    }
-    change
-}
-
-/// The lanes in which some point opens or closes.
-#[inline(always)]
-fn parting<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    ground: &Ground<I::F>,
-    block: &Block<W>,
+    left: I::M,
     frozen: bool,
 ) -> I::M {
-    let open = isa.splat(Mode::OPEN);
-    let mut parting = open.lt(open);
-    for c in 0..model.contacts.len() {
-        let point = Point::found::<W, D, I>(isa, model, ground, block, c, frozen);
-        let after = point.after::<W, D, I>(isa, ground);
-        let (was, is) = (point.mode.eq(open), after.mode.eq(open));
-        parting = parting | (was & !is) | (!was & is);
+    let mut search = Search::load(isa, &block.contact.search);
+    let step = search.step;
+    let found = residual::<W, D, I>(isa, model, ground, block, step, frozen);
+    let taken = search.judge(found) & left;
+    search.store(isa, &mut block.contact.search);
+    if taken.any() {
+        advance(isa, block, step, taken);
+        for c in 0..model.contacts.len() {
+            linearise::<W, D, I>(isa, ground, block, c, taken, frozen);
+        }
     }
-    parting
+    taken
 }
+
+/// |S v − s − Jᵀ λ|² at a step along the direction.
+#[inline(always)]
+fn residual<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    step: I::F,
+    frozen: bool,
+) -> I::F {
+    let work = &mut block.contact;
+    for row in 0..work.residual.len() {
+        let change = isa.load(&work.imbalance_change[row]) * step;
+        isa.store(isa.load(&work.imbalance[row]) + change, &mut work.residual[row]);
+    }
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let mut u = load_vector::<W, D, I>(isa, &work.velocity, c);
+        let change = load_vector::<W, D, I>(isa, &work.velocity_change, c);
+        for k in 0..D {
+            u[k] = u[k] + change[k] * step;
+        }
+        let point = point::<W, D, I>(isa, work, c);
+        let [up, x, z] = point.impulse::<D>(ground, &u, frozen).impulse;
+        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let rows = &mut work.residual[contact.place..];
+        add_force::<W, D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
+    }
+    let mut sum = isa.splat(0.0);
+    for row in 0..work.residual.len() {
+        let residual = isa.load(&work.residual[row]);
+        sum = sum + residual * residual * isa.load(&work.mobility[row]);
+    }
+    sum
+}
+
+/// Goes a step along the direction in the lanes of a mask.
+#[inline(always)]
+fn advance<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, step: I::F, mask: I::M) {
+    let work = &mut block.contact;
+    let pairs = [
+        (&mut work.known, &work.direction),
+        (&mut work.imbalance, &work.imbalance_change),
+        (&mut work.velocity, &work.velocity_change),
+    ];
+    for (rows, changes) in pairs {
+        for k in 0..rows.len() {
+            let next = isa.load(&rows[k]) + isa.load(&changes[k]) * step;
+            store_where(isa, mask, next, &mut rows[k]);
+        }
+    }
+}
+
+/// Impulses, mode and response of a point at its velocity, in the lanes of a mask.
+#[inline(always)]
+fn linearise<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    c: usize,
+    mask: I::M,
+    frozen: bool,
+) {
+    let u = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
+    let approach = isa.load(&block.contact.approach[c]);
+    let point = point::<W, D, I>(isa, &block.contact, c);
+    let found = point.impulse::<D>(ground, &u, frozen);
+    store_where(isa, mask, found.mode(), &mut block.mode[c]);
+    store_where(isa, mask, found.impulse[0], &mut block.normal[c]);
+    for t in 0..D - 1 {
+        // What the spring of the pad holds without its damper, where it does not slip.
+        let spring = found.impulse[1 + t] + ground.viscous * u[1 + t];
+        let held = I::F::select(found.slides, found.impulse[1 + t], spring);
+        store_where(isa, mask, held, &mut block.tangential[(D - 1) * c + t]);
+    }
+    let response = Response::at::<D>(&point, ground, &found, &u, approach, frozen);
+    response.store(isa, mask, &mut block.contact.response, c);
+}
+
+/// Friction is bounded by what the normal impulse of the step before allows.
+#[inline(always)]
+fn freeze<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    work: &mut Workspace<W>,
+    c: usize,
+) {
+    let coefficient = isa.load(&work.coefficient[c]);
+    let bound = ground.friction(coefficient, isa.load(&work.warm[D * c]));
+    isa.store(bound, &mut work.bound[c]);
+}
+
+/// Brings the bounds of friction halfway to those of the normal impulses found, in the lanes of a mask; the
+/// lanes where they agree.
+#[inline(always)]
+fn relax<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    mask: I::M,
+) -> I::M {
+    let zero = isa.splat(0.0);
+    let (mut off, mut all) = (zero, zero);
+    for c in 0..model.contacts.len() {
+        let coefficient = isa.load(&block.contact.coefficient[c]);
+        let found = ground.friction(coefficient, isa.load(&block.normal[c]));
+        let bound = isa.load(&block.contact.bound[c]);
+        off = off.max((found - bound).abs());
+        all = all + found;
+    }
+    let agreed = off.le(all * AGREED);
+    let moves = mask & !agreed;
+    for c in 0..model.contacts.len() {
+        let coefficient = isa.load(&block.contact.coefficient[c]);
+        let found = ground.friction(coefficient, isa.load(&block.normal[c]));
+        let bound = isa.load(&block.contact.bound[c]);
+        store_where(isa, moves, (found + bound) * 0.5, &mut block.contact.bound[c]);
+    }
+    let mut search = Search::load(isa, &block.contact.search);
+    search.retake(moves, zero);
+    search.store(isa, &mut block.contact.search);
+    mask & agreed
+}
+
+#[inline(always)]
+fn point<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    work: &Workspace<W>,
+    c: usize,
+) -> Point<I::F> {
+    Point {
+        warm: load_vector::<W, D, I>(isa, &work.warm, c),
+        coefficient: isa.load(&work.coefficient[c]),
+        bound: isa.load(&work.bound[c]),
+    }
+}
+

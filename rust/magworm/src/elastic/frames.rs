@@ -62,7 +62,7 @@ fn unit<F: Real>(a: &[F; 3]) -> [F; 3] {
 pub fn turn<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, go: I::M) {
     for (element, twist) in model.coordinates.twists.iter().enumerate() {
         let Some(dof) = *twist else { continue };
-        let angle = isa.load(&block.next[dof]) * (0.5 * block.dt_s);
+        let angle = isa.load(&block.next[dof]) * (0.5 * model.step_s);
         let up = load3(isa, &block.director, 6 * element);
         let side = load3(isa, &block.side, 3 * element);
         // Cayley's rotation about the tangent: tan of half the angle is ½ ω Δt.
@@ -75,7 +75,7 @@ pub fn turn<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<
         let element = model.mesh.magnets[body].element;
         let rate = load3(isa, &block.next, dof + 3);
         let momentum = world_inertia(isa, block, body, dof, &rate);
-        let half = scaled(&rate, isa.splat(0.5 * block.dt_s));
+        let half = scaled(&rate, isa.splat(0.5 * model.step_s));
         let t = unit(&rotated(&load3(isa, &block.director, 6 * element + 3), &half));
         let up = upright(&rotated(&load3(isa, &block.director, 6 * element), &half), &t);
         let axes = [t, up, cross(&t, &up)];

@@ -68,5 +68,5 @@ fn set<const W: usize, I: Isa<W>>(
     b: usize,
     value: I::F,
 ) {
-    isa.store(value, &mut block.matrix[model.band.at(a.max(b), a.min(b))]);
+    isa.store(value, &mut block.matrix[model.system.at(a.max(b), a.min(b))]);
 }

@@ -14,7 +14,7 @@ const WRENCH: usize = 6;
 #[inline(always)]
 pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
-    let dt = block.dt_s;
+    let dt = model.step_s;
     for &(dof, axis) in &model.translations {
         let push = isa.load(&block.mass[dof]) * (gravity[axis] * dt);
         isa.store(isa.load(&block.right[dof]) + push, &mut block.right[dof]);
@@ -48,7 +48,7 @@ pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
         if program.uniform_field.is_some() {
             uniform_torque::<W, D, I>(isa, model, block, body, &mut wrench);
         }
-        let dt = block.dt_s;
+        let dt = model.step_s;
         for k in 0..body_size(D) {
             let entry = &mut block.right[dof + k];
             isa.store(isa.load(entry) + wrench[k] * dt, entry);

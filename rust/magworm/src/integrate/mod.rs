@@ -39,7 +39,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
 fn inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     for dof in 0..model.coordinates.count {
         let mass = isa.load(&block.mass[dof]);
-        isa.store(mass, &mut block.matrix[model.band.at(dof, dof)]);
+        isa.store(mass, &mut block.matrix[model.system.at(dof, dof)]);
         isa.store(mass * isa.load(&block.v[dof]), &mut block.right[dof]);
     }
 }
@@ -60,7 +60,7 @@ fn rotary_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut 
                 }
                 momentum = momentum + entry * isa.load(&block.v[first + column]);
                 if column <= row {
-                    let place = model.band.at(first + row, first + column);
+                    let place = model.system.at(first + row, first + column);
                     isa.store(entry, &mut block.matrix[place]);
                 }
             }
@@ -75,7 +75,7 @@ fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
     Scheme {
         stiffness: factor(Parameter::Stiffness),
         damping_s: factor(Parameter::Damping) * model.scene.material.damping_time_s,
-        dt: block.dt_s,
+        dt: model.step_s,
         implicit: model.scene.solver.integrator == Integrator::Implicit,
     }
 }

@@ -20,6 +20,7 @@ macro_rules! vectorized {
         )
     };
 }
+pub(super) use vectorized;
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,6 +81,28 @@ impl Band {
         }
     }
 
+    /// Matrix times vector, from the entries of the lower half.
+    #[inline(always)]
+    pub fn multiply<const W: usize, I: Isa<W>>(
+        &self,
+        isa: I,
+        matrix: &[[f64; W]],
+        vector: &[[f64; W]],
+        product: &mut [[f64; W]],
+    ) {
+        for row in 0..self.size {
+            let mut sum = isa.splat(0.0);
+            let first = row.saturating_sub(self.half_bandwidth);
+            for column in first..=row {
+                sum = sum + isa.load(&matrix[self.at(row, column)]) * isa.load(&vector[column]);
+            }
+            for column in row + 1..(row + 1 + self.half_bandwidth).min(self.size) {
+                sum = sum + isa.load(&matrix[self.at(column, row)]) * isa.load(&vector[column]);
+            }
+            isa.store(sum, &mut product[row]);
+        }
+    }
+
     /// Solves in place with a factored matrix.
     pub fn solve<const W: usize, I: Isa<W>>(
         &self,
@@ -107,27 +130,37 @@ fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     matrix: &mut [[f64; W]],
 ) {
     let (rows, _) = matrix.as_chunks_mut::<ROW>();
-    let one = isa.splat(1.0);
     for row in H..size + H {
-        let (above, below) = rows.split_at_mut(row);
-        let above = &above[row - H..];
-        let current = &mut below[0];
-        let mut pivot = isa.load(&current[H]);
-        let mut u = [one; H];
-        for column in 0..H {
-            let mut sum = isa.load(&current[column]);
-            for k in 0..column {
-                sum = sum - u[k] * isa.load(&above[column][H + k - column]);
-            }
-            u[column] = sum;
-        }
-        for column in 0..H {
-            let l = u[column] * isa.load(&above[column][H]);
-            pivot = pivot - u[column] * l;
-            isa.store(l, &mut current[column]);
-        }
-        isa.store(one / pivot, &mut current[H]);
+        factor_row::<W, I, H, ROW>(isa, rows, row);
     }
+}
+
+/// One row, given those above it.
+#[inline(always)]
+pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    rows: &mut [[[f64; W]; ROW]],
+    row: usize,
+) {
+    let one = isa.splat(1.0);
+    let (above, below) = rows.split_at_mut(row);
+    let above = &above[row - H..];
+    let current = &mut below[0];
+    let mut pivot = isa.load(&current[H]);
+    let mut u = [one; H];
+    for column in 0..H {
+        let mut sum = isa.load(&current[column]);
+        for k in 0..column {
+            sum = sum - u[k] * isa.load(&above[column][H + k - column]);
+        }
+        u[column] = sum;
+    }
+    for column in 0..H {
+        let l = u[column] * isa.load(&above[column][H]);
+        pivot = pivot - u[column] * l;
+        isa.store(l, &mut current[column]);
+    }
+    isa.store(one / pivot, &mut current[H]);
 }
 
 /// Forward and backward substitution; the last H unknowns travel along in registers.

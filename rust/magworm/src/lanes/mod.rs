@@ -12,8 +12,10 @@
 //! inlined into [`Isa::vectorize`] would be compiled without the vector instructions.
 
 pub mod banded;
+pub mod chain;
 pub mod math;
 mod scalar;
+pub mod unsymmetric;
 mod wide;
 
 pub use scalar::Scalar;

@@ -11,7 +11,7 @@
 //! | space | x, y, z | x, y, z, rotation about x, y, z | twist about its tangent | 3 |
 
 use super::mesh::Mesh;
-use crate::lanes::banded::Band;
+use crate::lanes::chain::Chain;
 
 /// Which unknowns are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -202,7 +202,7 @@ pub struct Stencil {
     pub moves: [bool; 3],
     /// Twist of the elements between the nodes.
     pub spins: [Spin; 2],
-    /// Places in the banded matrix of all pairs of unknowns, lower triangle by rows.
+    /// Places in the matrix of all pairs of unknowns, lower triangle by rows.
     pub entries: [usize; MOST * (MOST + 1) / 2],
 }
 
@@ -215,13 +215,6 @@ impl Stencil {
     /// The stencil of `nodes` and of the twist of the elements between them.
     pub fn with_twist(coordinates: &Coordinates, nodes: &[usize]) -> Self {
         Self::along(coordinates, nodes, true)
-    }
-
-    /// The stencil of a magnet itself.
-    pub fn of_body(coordinates: &Coordinates, body: usize) -> Self {
-        let mut this = Self::along(coordinates, &[], false);
-        this.slot_of(coordinates.bodies[body], coordinates.body_size());
-        this
     }
 
     fn along(coordinates: &Coordinates, nodes: &[usize], twist: bool) -> Self {
@@ -276,11 +269,11 @@ impl Stencil {
     }
 
     /// Looks the places of its entries up, once the shape of the matrix is known.
-    pub fn locate(&mut self, band: &Band) {
+    pub fn locate(&mut self, system: &Chain) {
         let mut place = 0;
         for row in 0..self.count {
             for column in 0..=row {
-                self.entries[place] = band.at(self.dofs[row], self.dofs[column]);
+                self.entries[place] = system.at(self.dofs[row], self.dofs[column]);
                 place += 1;
             }
         }

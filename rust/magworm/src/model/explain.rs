@@ -17,7 +17,7 @@ impl Model {
             Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
         };
         line("integrator", format!("{scheme}, step {} s", self.step_s));
-        let (unknowns, half) = (self.coordinates.count, self.band.half_bandwidth());
+        let (unknowns, half) = (self.coordinates.count, self.system.half_bandwidth());
         line("unknowns", format!("{unknowns}, half-bandwidth {half}"));
         line("stretching", format!("{} elements", self.stretch.len()));
         let curvature = match self.scene.solver.curvature {

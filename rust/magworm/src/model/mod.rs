@@ -12,7 +12,7 @@ pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 
 use crate::drive::DriveModel;
-use crate::lanes::banded::Band;
+use crate::lanes::chain::Chain;
 use crate::lanes::math::sin_cos;
 use crate::magnetic::UniformField;
 use crate::scene::{Integrator, Parameter, Scene, SceneError};
@@ -26,8 +26,8 @@ pub struct Model {
     pub mesh: Mesh,
     /// Unknowns.
     pub coordinates: Coordinates,
-    /// Matrix shape.
-    pub band: Band,
+    /// Shape of the equations of a step.
+    pub system: Chain,
     /// Axial springs.
     pub stretch: Vec<Stretch>,
     /// Bending springs; in space they twist as well.
@@ -87,10 +87,10 @@ pub struct GroundLaw {
     pub transition_speed_m_s: f64,
     /// D_f [N].
     pub adhesion_n: f64,
-    /// Mass of a typical node [kg].
-    pub node_mass_kg: f64,
-    /// Weight w of the penalty that holds a contact [kg], see `penalty_weight_kg`.
-    pub weight_kg: f64,
+    /// Stiffness k of the pad under a contact point [N/m].
+    pub stiffness_n_m: f64,
+    /// Time constant τ of its damper [s].
+    pub damping_time_s: f64,
 }
 
 /// Axial spring of an element: E = ½ k (|e| − l)², k = EA/l.
@@ -127,8 +127,12 @@ pub struct Bend {
 pub struct Contact {
     /// Where it is.
     pub sole: Sole,
-    /// The unknowns it moves with: those of its magnet, or of its node.
-    pub stencil: Stencil,
+    /// First unknown that it moves with: x of its magnet, or of its node.
+    pub dof: usize,
+    /// Place of that unknown among those that the contact solve keeps.
+    pub place: usize,
+    /// Whether it turns with a magnet.
+    pub rigid: bool,
 }
 
 impl Model {
@@ -146,16 +150,13 @@ impl Model {
         let coordinates = Coordinates::new(&mesh, unknowns, scene.dimensions);
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
-        let mut contacts = match scene.ground {
-            Some(_) => contact_points(&mesh, &coordinates),
-            None => Vec::new(),
-        };
         let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
-        let band = band(&coordinates, &stretch, &bend, &contacts);
+        let touching = if scene.ground.is_some() { &mesh.soles[..] } else { &[] };
+        let system = system(&coordinates, &stretch, &bend, touching);
+        let contacts = contact_points(touching, &coordinates, &system);
         let in_matrix = coordinates.ties.is_empty();
-        stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&band));
-        bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&band));
-        contacts.iter_mut().for_each(|c| c.stencil.locate(&band));
+        stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&system));
+        bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
         let program = Program::new(scene, &mesh);
         let step_s = scene.solver.step_s;
         Ok(Self {
@@ -166,7 +167,7 @@ impl Model {
             half_magnet_m: scene.magnet.as_ref().map_or(0.0, |m| 0.5 * m.length_m),
             steps_per_control: (scene.control.step_s / step_s).round() as u32,
             step_s,
-            band,
+            system,
             stretch,
             bend,
             inertia,
@@ -225,8 +226,8 @@ impl Program {
                 transition_speed_m_s: g.transition_speed_m_s,
                 // A foot has a toe and a heel in the plane, two of each in space.
                 adhesion_n: g.adhesion_n * if scene.dimensions == 3 { 0.5 } else { 1.0 },
-                node_mass_kg: typical_node_mass_kg(scene, mesh),
-                weight_kg: penalty_weight_kg(scene, mesh),
+                stiffness_n_m: pad_stiffness_n_m(scene, mesh),
+                damping_time_s: pad_damping_time_s(scene, mesh),
             }),
             drive,
         }
@@ -239,22 +240,32 @@ fn gravity(scene: &Scene) -> [f64; 3] {
     [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos, 0.0]
 }
 
-/// Weight of the penalty that holds a contact.
-///
-/// Large against the nodal mass m, so that the residual velocity is far below 1e-9 m/s; so small that
-/// rounding (1e-16 w) leaves the masses eight digits: w = 1e8 m. Short steps need less: the height of a
-/// point is known to about 1e-18 m, which the penalty turns into an impulse w · 1e-18 m/Δt; it must
-/// stay below 1e-5 of the impulse of weight, m g Δt, hence w ≤ 1e14 m (Δt/s)².
-fn penalty_weight_kg(scene: &Scene, mesh: &Mesh) -> f64 {
-    let step_s = scene.solver.step_s;
-    typical_node_mass_kg(scene, mesh) * (1e14 * step_s * step_s).clamp(1e2, 1e8)
+/// How many times stiffer the pad of a contact point is than the rubber above it, so that its give is a hundredth of
+/// what the body gives anyway.
+const PAD: f64 = 100.0;
+
+/// Stiffness of the pad under a contact point [N/m]: that of the column of rubber above it, E A/h, times [`PAD`].
+fn pad_stiffness_n_m(scene: &Scene, mesh: &Mesh) -> f64 {
+    let thickness_m = mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max);
+    let last = mesh.arc_m.len() - 1;
+    let area_m2 = mesh.width_m * (mesh.arc_m[last] - mesh.arc_m[0]) / mesh.soles.len().max(1) as f64;
+    PAD * scene.material.youngs_modulus_pa * area_m2 / thickness_m
 }
 
-fn typical_node_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
-    let volume_m3: f64 = (0..mesh.elements.len())
+/// Time constant of the pad's damper [s]: twice that of critical damping under the whole body, 4 √(m/k), so that nothing
+/// rebounds.
+fn pad_damping_time_s(scene: &Scene, mesh: &Mesh) -> f64 {
+    4.0 * (body_mass_kg(scene, mesh) / pad_stiffness_n_m(scene, mesh)).sqrt()
+}
+
+fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
+    let rubber_m3: f64 = (0..mesh.elements.len())
         .map(|e| mesh.element_length_m(e) * mesh.elements[e].thickness_m * mesh.width_m)
         .sum();
-    scene.material.density_kg_m3 * volume_m3 / mesh.arc_m.len() as f64
+    let magnet_kg = scene.magnet.as_ref().map_or(0.0, |magnet| {
+        magnet.density_kg_m3 * magnet.length_m * magnet.width_m * magnet.height_m
+    });
+    scene.material.density_kg_m3 * rubber_m3 + magnet_kg * mesh.magnets.len() as f64
 }
 
 fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Stretch> {
@@ -309,43 +320,46 @@ pub fn torsion_constant_m4(width_m: f64, thickness_m: f64) -> f64 {
     b * h.powi(3) * (1.0 / 3.0 - 0.21 * slender * (1.0 - slender.powi(4) / 12.0))
 }
 
-fn contact_points(mesh: &Mesh, coordinates: &Coordinates) -> Vec<Contact> {
-    mesh.soles
+fn contact_points(soles: &[Sole], coordinates: &Coordinates, system: &Chain) -> Vec<Contact> {
+    let place = |dof| system.place(dof).expect("what touches the ground is kept");
+    let at = |sole, dof, rigid| Some(Contact { sole, dof, place: place(dof), rigid });
+    soles
         .iter()
-        .map(|&sole| Contact {
-            sole,
-            stencil: match sole {
-                Sole::Foot { body, .. } => Stencil::of_body(coordinates, body),
-                Sole::Node { node, .. } => Stencil::new(coordinates, &[node]),
+        .filter_map(|&sole| match sole {
+            Sole::Foot { body, .. } => at(sole, coordinates.bodies[body], true),
+            Sole::Node { node, .. } => match coordinates.anchors[node] {
+                Anchor::Free { dof } => at(sole, dof, false),
+                Anchor::Rigid { body, .. } => at(sole, coordinates.bodies[body], true),
+                Anchor::Fixed => None,
             },
         })
-        .filter(|contact| contact.stencil.count > 0)
         .collect()
 }
 
-fn band(
-    coordinates: &Coordinates,
-    stretch: &[Stretch],
-    bend: &[Bend],
-    contacts: &[Contact],
-) -> Band {
-    let mut band = Band::diagonal(coordinates.count);
+/// The shape of the equations of a step. Where only magnets touch the ground, what lies between them is eliminated
+/// before contact is solved.
+fn system(coordinates: &Coordinates, stretch: &[Stretch], bend: &[Bend], soles: &[Sole]) -> Chain {
+    let on_magnets = !soles.is_empty() && soles.iter().all(|sole| matches!(sole, Sole::Foot { .. }));
+    let mut system = if on_magnets {
+        Chain::condensed(coordinates.count, &coordinates.bodies, coordinates.body_size())
+    } else {
+        Chain::whole(coordinates.count)
+    };
     for tie in &coordinates.ties {
         let Anchor::Free { dof } = coordinates.anchors[tie.node] else { continue };
         let body = coordinates.bodies[tie.body];
         let (axis, rotation) = (coordinates.dimensions - 1, coordinates.body_size() - 1);
-        band.couple(&[tie.dof, tie.dof + axis, dof, dof + axis, body, body + rotation]);
+        system.couple(&[tie.dof, tie.dof + axis, dof, dof + axis, body, body + rotation]);
     }
     // Explicit schemes have no stiffness in their matrix.
     if coordinates.ties.is_empty() {
-        stretch.iter().for_each(|s| band.couple(&s.stencil.dofs[..s.stencil.count]));
-        bend.iter().for_each(|b| band.couple(&b.stencil.dofs[..b.stencil.count]));
+        stretch.iter().for_each(|s| system.couple(&s.stencil.dofs[..s.stencil.count]));
+        bend.iter().for_each(|b| system.couple(&b.stencil.dofs[..b.stencil.count]));
     }
-    contacts.iter().for_each(|c| band.couple(&c.stencil.dofs[..c.stencil.count]));
-    if coordinates.dimensions == 3 {
-        coordinates.bodies.iter().for_each(|&body| band.couple(&[body + 3, body + 5]));
+    for &body in &coordinates.bodies {
+        system.couple(&[body, body + coordinates.body_size() - 1]);
     }
-    band
+    system
 }
 
 fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {

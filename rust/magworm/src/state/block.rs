@@ -1,6 +1,7 @@
 //! W environments of one model, one per lane.
 
 use super::rows::Rows;
+use crate::contact::Workspace;
 use crate::drive::stage_axes;
 use crate::model::Model;
 
@@ -48,14 +49,12 @@ impl Status {
 pub struct Counters {
     /// Solver steps of the block.
     pub steps: u64,
-    /// Linear solves.
-    pub solves: u64,
-    /// Factorisations.
+    /// Linear systems with contact that were solved, or without where nothing touches.
     pub factorisations: u64,
+    /// Trials of the contact solve, see [`crate::contact`].
+    pub trials: u64,
     /// Wrenches of one drive magnet on one body magnet.
     pub wrenches: u64,
-    /// Steps that some lane took in parts, see [`crate::step`].
-    pub divided: u64,
 }
 
 impl Counters {
@@ -63,10 +62,9 @@ impl Counters {
     pub fn plus(self, other: Self) -> Self {
         Self {
             steps: self.steps + other.steps,
-            solves: self.solves + other.solves,
             factorisations: self.factorisations + other.factorisations,
+            trials: self.trials + other.trials,
             wrenches: self.wrenches + other.wrenches,
-            divided: self.divided + other.divided,
         }
     }
 }
@@ -129,46 +127,14 @@ pub struct Block<const W: usize> {
     /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
     /// shape [magnets × 9].
     pub frame: Rows<W>,
-    /// Matrix without contacts, banded.
+    /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
     pub matrix: Rows<W>,
-    /// Matrix with contacts, then its factors.
-    pub factor: Rows<W>,
-    /// Right-hand side without contacts [N·s], shape [unknowns].
+    /// Right-hand side [N·s], shape [unknowns].
     pub right: Rows<W>,
-    /// Right-hand side with contacts, then the solution, shape [unknowns].
-    pub solution: Rows<W>,
-    /// Accepted velocities of this step, shape [unknowns].
+    /// Velocities at the end of this step, shape [unknowns].
     pub next: Rows<W>,
-    /// Jacobians of the contacts, normal then tangential, over the unknowns of a magnet, shape
-    /// [contacts × 2 × 3], in space [contacts × 3 × 6].
-    pub jacobian: Rows<W>,
-    /// State of each contact at the start of the step, shape [contacts].
-    pub mode_before: Rows<W>,
-    /// Normal velocity that a contact must reach at least [m/s], shape [contacts].
-    pub approach: Rows<W>,
-    /// Coefficient of friction in this step, shape [contacts].
-    pub coefficient: Rows<W>,
-    /// Normal impulse that friction reckons with [N·s], shape [contacts].
-    pub reckoned: Rows<W>,
-    /// What is kept of earlier passes [N·s], see [`crate::contact::MEMORY`], shape [contacts × 4].
-    pub memory: Rows<W>,
-    /// How many passes that are, shape [1].
-    pub remembered: Rows<W>,
-    /// Impulses of the last step, where the penalties start from [N·s], shape [contacts × D].
-    pub warm: Rows<W>,
-    /// Direction in which each contact slides, shape [contacts × (D − 1)].
-    pub slip: Rows<W>,
-    /// In space its speed in the pass before [m/s], shape [contacts].
-    pub speed: Rows<W>,
-    /// In space the direction across it that friction is linearised along, its viscosity [kg] and the velocity
-    /// that it is linearised about [m/s], shape [contacts × 4].
-    pub across: Rows<W>,
-    /// 1 where friction runs away, see [`crate::contact::hold`], shape [1].
-    pub wild: Rows<W>,
-    /// 1 where a lane takes this step in parts, shape [1].
-    pub divided: Rows<W>,
-    /// The time step in force [s]: the scene's, or a part of it.
-    pub dt_s: f64,
+    /// The contact solve.
+    pub contact: Workspace<W>,
     /// Work done.
     pub counters: Counters,
 }
@@ -207,25 +173,10 @@ impl<const W: usize> Block<W> {
             inverse_length: zeros(elements),
             side: in_space(3 * elements),
             frame: zeros(if dimensions == 2 { 2 } else { 9 } * magnets),
-            matrix: zeros(model.band.entries()),
-            factor: zeros(model.band.entries()),
+            matrix: zeros(model.system.entries()),
             right: zeros(unknowns),
-            solution: zeros(unknowns),
             next: zeros(unknowns),
-            jacobian: zeros(contacts * crate::contact::jacobian_rows(dimensions)),
-            mode_before: zeros(contacts),
-            approach: zeros(contacts),
-            coefficient: zeros(contacts),
-            reckoned: zeros(contacts),
-            memory: zeros(crate::contact::MEMORY * contacts),
-            remembered: zeros(1),
-            warm: zeros(dimensions * contacts),
-            slip: zeros((dimensions - 1) * contacts),
-            speed: in_space(contacts),
-            across: in_space(4 * contacts),
-            wild: zeros(1),
-            divided: zeros(1),
-            dt_s: model.step_s,
+            contact: Workspace::new(model),
             counters: Counters::default(),
         };
         (0..W).for_each(|lane| crate::reset::rest(model, &mut this, lane));

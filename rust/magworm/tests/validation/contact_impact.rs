@@ -126,8 +126,10 @@ fn validates_recovery_from_inside_the_ground() {
                 kinetic = kinetic.max(world.kinetic());
             }
             let allowed = 0.5 * world.mass_and_centre().0 * 0.01;
-            // Gap at the start of the last step over Δt; only deep ones are cut off at the recovery speed.
-            let gaps = world.block.approach.iter().map(|row| row[0] * world.model.step_s);
+            // Gap at the start of the last step over Δt + τ; only deep ones are cut off at the recovery speed.
+            let pad = world.model.program.ground.expect("ground").damping_time_s;
+            let lead_s = world.model.step_s + pad;
+            let gaps = world.block.contact.approach.iter().map(|row| row[0] * lead_s);
             let lowest = gaps.fold(f64::INFINITY, f64::min);
             println!(
                 "inside the ground by {depth} m, {base}: fastest {fastest:.3} m/s, kinetic {:.2} of allowed, left at {lowest:.1e} m, {:.1e} m/s",

@@ -247,10 +247,10 @@ fn errors(mut world: World) -> [f64; 2] {
     let dt = world.model.step_s;
     let force = DVector::from_iterator(count, world.block.right.iter().map(|r| r[0] / dt));
     let matrix = expected_matrix(&world, &strains, &gradients);
-    let (band, mut off) = (&world.model.band, 0.0f64);
+    let mut off = 0.0f64;
     for (row, column) in (0..count).flat_map(|r| (0..=r).map(move |c| (r, c))) {
-        let inside = row - column <= band.half_bandwidth();
-        let entry = if inside { world.block.matrix[band.at(row, column)][0] } else { 0.0 };
+        let place = world.model.system.find(row, column);
+        let entry = place.map_or(0.0, |place| world.block.matrix[place][0]);
         let scale = (matrix[(row, row)] * matrix[(column, column)]).sqrt();
         off = off.max((entry - matrix[(row, column)]).abs() / scale);
     }

@@ -1,0 +1,78 @@
+//! What the contact solve of a step works with.
+
+use super::law::RESPONSE;
+use crate::lanes::unsymmetric;
+use crate::model::Model;
+use crate::state::Rows;
+
+/// Rows of the contact solve of one step; nothing in here outlives it.
+#[derive(Clone, Debug)]
+pub struct Workspace<const W: usize> {
+    /// From a point's body to the point [m], shape [contacts × D].
+    pub arm: Rows<W>,
+    /// Normal velocity that a point must reach at least, with its sign changed [m/s], shape [contacts].
+    pub approach: Rows<W>,
+    /// Coefficient of friction in this step, shape [contacts].
+    pub coefficient: Rows<W>,
+    /// λ⁰, upwards and along the ground [N·s], shape [contacts × D].
+    pub warm: Rows<W>,
+    /// Greatest tangential impulse where friction is frozen [N·s], shape [contacts].
+    pub bound: Rows<W>,
+    /// Impulses linearised in the velocities of the points, see `law::Response`, shape [contacts × 9].
+    pub response: Rows<W>,
+    /// 1 where a point was closed or is about to sink at the start of the step, shape [contacts].
+    pub touching: Rows<W>,
+    /// Velocities of the points, upwards with the approach [m/s], shape [contacts × D].
+    pub velocity: Rows<W>,
+    /// How they change along the direction of search, shape [contacts × D].
+    pub velocity_change: Rows<W>,
+    /// Matrix of Newton's iteration, unsymmetric.
+    pub matrix: Rows<W>,
+    /// Its right-hand side, then its solution, with ghost rows.
+    pub target: Rows<W>,
+    /// v: velocities of the kept unknowns, shape [kept].
+    pub known: Rows<W>,
+    /// Direction of search, shape [kept].
+    pub direction: Rows<W>,
+    /// S v − s: what contact has to balance [N·s], shape [kept].
+    pub imbalance: Rows<W>,
+    /// How it changes along the direction, shape [kept].
+    pub imbalance_change: Rows<W>,
+    /// S v − s − Jᵀ λ at a trial [N·s], shape [kept].
+    pub residual: Rows<W>,
+    /// 1 over the diagonal of S [1/kg], shape [kept].
+    pub mobility: Rows<W>,
+    /// The search of each lane, see `search::Search`, shape [6].
+    pub search: Rows<W>,
+}
+
+impl<const W: usize> Workspace<W> {
+    /// Room for the contacts of a model.
+    pub fn new(model: &Model) -> Self {
+        let contacts = model.contacts.len();
+        let of_contacts = |rows| Rows::zeros(rows * contacts);
+        // Where nothing touches, nothing is solved here.
+        let size = |rows| Rows::zeros(if contacts == 0 { 0 } else { rows });
+        let (dimensions, kept) = (model.dimensions(), model.system.kept());
+        Self {
+            arm: of_contacts(dimensions),
+            approach: of_contacts(1),
+            coefficient: of_contacts(1),
+            warm: of_contacts(dimensions),
+            bound: of_contacts(1),
+            response: of_contacts(RESPONSE),
+            touching: of_contacts(1),
+            velocity: of_contacts(dimensions),
+            velocity_change: of_contacts(dimensions),
+            matrix: size(unsymmetric::entries(kept)),
+            target: size(unsymmetric::rows(kept)),
+            known: size(kept.size()),
+            direction: size(kept.size()),
+            imbalance: size(kept.size()),
+            imbalance_change: size(kept.size()),
+            residual: size(kept.size()),
+            mobility: size(kept.size()),
+            search: Rows::zeros(super::search::ROWS),
+        }
+    }
+}

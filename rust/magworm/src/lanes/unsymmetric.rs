@@ -1,0 +1,197 @@
+//! Banded systems without symmetry, solved by elimination without pivoting, one system per lane.
+//!
+//! Row r is stored with its columns r − h … r + h; h ghost rows of zeros stand above and below, as in
+//! [`super::banded`]. A row is eliminated in registers and the right-hand side along with it, so the lower factor is
+//! never stored: each matrix is solved for one right-hand side.
+
+use super::Isa;
+use super::banded::{Band, vectorized};
+
+/// Numbers in a row of half-bandwidth h.
+pub const fn row_length(half_bandwidth: usize) -> usize {
+    2 * half_bandwidth + 1
+}
+
+/// Number of stored entries of a matrix of this shape.
+pub fn entries(band: &Band) -> usize {
+    (band.size() + 2 * band.half_bandwidth()) * row_length(band.half_bandwidth())
+}
+
+/// Rows of a right-hand side, ghosts included.
+pub fn rows(band: &Band) -> usize {
+    band.size() + 2 * band.half_bandwidth()
+}
+
+/// Place of entry (row, column).
+#[inline(always)]
+pub fn at(band: &Band, row: usize, column: usize) -> usize {
+    let h = band.half_bandwidth();
+    (row + h) * row_length(h) + h + column - row
+}
+
+/// Calls with half-bandwidth and row length as constants.
+macro_rules! dispatch {
+    ($band:expr, $h:ident, $row:ident => $work:block) => {
+        match $band.half_bandwidth() {
+            5 => dispatch!(5, $h, $row, $work),
+            6 => dispatch!(6, $h, $row, $work),
+            8 => dispatch!(8, $h, $row, $work),
+            10 => dispatch!(10, $h, $row, $work),
+            11 => dispatch!(11, $h, $row, $work),
+            13 => dispatch!(13, $h, $row, $work),
+            _ => dispatch!(16, $h, $row, $work),
+        }
+    };
+    ($H:literal, $h:ident, $row:ident, $work:block) => {{
+        const $h: usize = $H;
+        const $row: usize = row_length($H);
+        $work
+    }};
+}
+
+/// Writes a symmetric matrix, stored by its lower half, in full.
+pub fn expand<const W: usize, I: Isa<W>>(
+    isa: I,
+    band: &Band,
+    lower: &[[f64; W]],
+    full: &mut [[f64; W]],
+) {
+    let size = band.size();
+    dispatch!(band, H, ROW => {
+        vectorized!(isa, expand_rows::<W, I, H, ROW>(isa, size, lower, full));
+    });
+}
+
+#[inline(always)]
+fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    size: usize,
+    lower: &[[f64; W]],
+    full: &mut [[f64; W]],
+) {
+    let (rows, _) = full.as_chunks_mut::<ROW>();
+    for row in H..size + H {
+        let stored = &lower[row * (H + 1)..(row + 1) * (H + 1)];
+        for k in 0..H {
+            let value = isa.load(&stored[k]);
+            isa.store(value, &mut rows[row][k]);
+            isa.store(value, &mut rows[row + k - H][ROW - 1 - k]);
+        }
+        isa.store(isa.load(&stored[H]), &mut rows[row][H]);
+    }
+}
+
+/// Solves in place: `right` has ghost rows, `full` is used up.
+pub fn solve<const W: usize, I: Isa<W>>(
+    isa: I,
+    band: &Band,
+    full: &mut [[f64; W]],
+    right: &mut [[f64; W]],
+) {
+    let size = band.size();
+    dispatch!(band, H, ROW => {
+        vectorized!(isa, {
+            eliminate::<W, I, H, ROW>(isa, size, full, right);
+            substitute::<W, I, H, ROW>(isa, size, full, right);
+        });
+    });
+}
+
+/// Row by row: what stands left of the diagonal is eliminated by the rows above; the diagonal becomes 1/pivot.
+#[inline(always)]
+fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    size: usize,
+    full: &mut [[f64; W]],
+    right: &mut [[f64; W]],
+) {
+    let (rows, _) = full.as_chunks_mut::<ROW>();
+    let one = isa.splat(1.0);
+    for row in H..size + H {
+        let (above, below) = rows.split_at_mut(row);
+        let above = &above[row - H..];
+        let mut current = [one; ROW];
+        for k in 0..ROW {
+            current[k] = isa.load(&below[0][k]);
+        }
+        let mut y = isa.load(&right[row]);
+        for k in 0..H {
+            let l = current[k] * isa.load(&above[k][H]);
+            for j in 1..=H {
+                current[k + j] = current[k + j] - l * isa.load(&above[k][H + j]);
+            }
+            y = y - l * isa.load(&right[row - H + k]);
+        }
+        isa.store(one / current[H], &mut below[0][H]);
+        for k in H + 1..ROW {
+            isa.store(current[k], &mut below[0][k]);
+        }
+        isa.store(y, &mut right[row]);
+    }
+}
+
+#[inline(always)]
+fn substitute<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    size: usize,
+    full: &[[f64; W]],
+    right: &mut [[f64; W]],
+) {
+    let (rows, _) = full.as_chunks::<ROW>();
+    for row in (H..size + H).rev() {
+        let mut sum = isa.load(&right[row]);
+        for k in 1..=H {
+            sum = sum - isa.load(&rows[row][H + k]) * isa.load(&right[row + k]);
+        }
+        isa.store(sum * isa.load(&rows[row][H]), &mut right[row]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::Scalar;
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn solves_like_a_dense_factorisation(
+            numbers in prop::collection::vec(-1.0..1.0f64, 97),
+            span in 1usize..17,
+            size in 17usize..30,
+        ) {
+            let mut band = Band::diagonal(size);
+            band.couple(&[0, span]);
+            let h = band.half_bandwidth();
+            let mut next = numbers.iter().cycle();
+            let mut dense = DMatrix::zeros(size, size);
+            let mut lower = vec![[0.0]; band.entries()];
+            let mut full = vec![[0.0]; entries(&band)];
+            for row in 0..size {
+                for column in row.saturating_sub(h)..=row {
+                    let value = next.next().unwrap() + if row == column { 20.0 } else { 0.0 };
+                    dense[(row, column)] = value;
+                    dense[(column, row)] = value;
+                    lower[band.at(row, column)] = [value];
+                }
+            }
+            expand(Scalar, &band, &lower, &mut full);
+            for row in 0..size {
+                for column in row.saturating_sub(h)..(row + h + 1).min(size) {
+                    let skew = *next.next().unwrap();
+                    dense[(row, column)] += skew;
+                    full[at(&band, row, column)][0] += skew;
+                }
+            }
+            let right = DVector::from_iterator(size, numbers.iter().copied().take(size));
+            let mut solution = vec![[0.0]; rows(&band)];
+            (0..size).for_each(|row| solution[h + row] = [right[row]]);
+            solve(Scalar, &band, &mut full, &mut solution);
+            let expected = dense.lu().solve(&right).unwrap();
+            for row in 0..size {
+                prop_assert!((solution[h + row][0] - expected[row]).abs() < 1e-12);
+            }
+        }
+    }
+}
