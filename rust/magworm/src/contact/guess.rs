@@ -48,7 +48,8 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let closed = was_closed | (u[0] + approach).lt(zero);
     let along = [u[1], u[2]];
     let speed = length::<I::F, D>(along);
-    let slow = speed.le(ground.transition_speed);
+    // What moves while it sticks is the pad, not the sole.
+    let slow = speed.le(ground.transition_speed) | before.eq(isa.splat(Mode::STICK));
     // One that slid goes on: a guess that it sticks would ask for its whole momentum within one step, which no
     // friction has.
     let sticks = slow & !before.eq(slide);

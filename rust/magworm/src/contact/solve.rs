@@ -32,11 +32,14 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
         #[inline(always)]
         || start::<W, D, I>(isa, model, block),
     );
-    let share = model.scene.solver.contact_iterations.div_ceil(STARTS.len());
+    let trials = model.scene.solver.contact_iterations.div_ceil(PHASES.len());
     let mut left = running;
-    for from in STARTS {
-        begin::<W, D, I>(isa, model, ground, block, left, from);
-        left = iterate::<W, D, I>(isa, model, ground, block, left, from, share);
+    for phase in PHASES {
+        begin::<W, D, I>(isa, model, ground, block, left, phase);
+        let still = iterate::<W, D, I>(isa, model, ground, block, left, phase.friction, trials);
+        if phase.friction != Friction::Lagged {
+            left = still;
+        }
         if !left.any() {
             break;
         }
@@ -46,20 +49,47 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     }
 }
 
-/// What an iteration starts from, one after the other until one finds a solution.
+/// Where an iteration starts.
 #[derive(Clone, Copy, PartialEq)]
 enum From {
     /// Every point in the mode that it is most likely to be in.
     Guess,
+    /// Where the last iteration ended.
+    Here,
     /// What touches sticks.
     Stick,
     /// What touches slides without friction.
     Slide,
-    /// Where the last iteration ended, with friction bounded by the impulses of the step before.
-    Frozen,
 }
 
-const STARTS: [From; 4] = [From::Guess, From::Stick, From::Slide, From::Frozen];
+/// What bounds friction.
+#[derive(Clone, Copy, PartialEq)]
+enum Friction {
+    /// The normal impulse found.
+    Coulomb,
+    /// That of the step before.
+    Lagged,
+    /// The same, brought to agree with the one found as far as it will.
+    Settled,
+}
+
+/// An iteration.
+#[derive(Clone, Copy)]
+struct Phase {
+    from: From,
+    friction: Friction,
+}
+
+/// The iterations of a step, until one has found a solution of Coulomb's law. The lagged one is not a solution but a
+/// place to start from; the last one is what is left where there is none.
+const PHASES: [Phase; 6] = [
+    Phase { from: From::Guess, friction: Friction::Coulomb },
+    Phase { from: From::Here, friction: Friction::Lagged },
+    Phase { from: From::Here, friction: Friction::Coulomb },
+    Phase { from: From::Stick, friction: Friction::Coulomb },
+    Phase { from: From::Slide, friction: Friction::Coulomb },
+    Phase { from: From::Here, friction: Friction::Settled },
+];
 
 /// Starts an iteration in the lanes of a mask; its first trial is taken whatever it is.
 fn begin<const W: usize, const D: usize, I: Isa<W>>(
@@ -68,28 +98,27 @@ fn begin<const W: usize, const D: usize, I: Isa<W>>(
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     mask: I::M,
-    from: From,
+    phase: Phase,
 ) {
+    let here = phase.from == From::Here;
     isa.vectorize(
         #[inline(always)]
         || {
+            let work = &mut block.contact;
             for c in 0..model.contacts.len() {
-                match from {
-                    From::Guess => {}
-                    From::Stick | From::Slide => {
-                        let sticks = from == From::Stick;
-                        restart(isa, ground, &mut block.contact, D, c, sticks, mask);
-                    }
-                    From::Frozen => freeze::<W, D, I>(isa, ground, &mut block.contact, c),
+                if matches!(phase.from, From::Stick | From::Slide) {
+                    restart(isa, ground, work, D, c, phase.from == From::Stick, mask);
+                }
+                if phase.friction != Friction::Coulomb {
+                    bound_by_last::<W, D, I>(isa, ground, work, c);
                 }
             }
-            let mut search = Search::load(isa, &block.contact.search);
-            let step = if from == From::Frozen { 0.0 } else { 1.0 };
-            search.retake(mask, isa.splat(step));
-            search.store(isa, &mut block.contact.search);
+            let mut search = Search::load(isa, &work.search);
+            search.retake(mask, isa.splat(if here { 0.0 } else { 1.0 }));
+            search.store(isa, &mut work.search);
         },
     );
-    if from != From::Frozen {
+    if !here {
         solve_linearised::<W, D, I>(isa, model, block);
         isa.vectorize(
             #[inline(always)]
@@ -105,19 +134,18 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     mask: I::M,
-    from: From,
+    friction: Friction,
     trials: usize,
 ) -> I::M {
-    let frozen = from == From::Frozen;
     let mut left = mask;
     for trial in 1..=trials {
         let taken = isa.vectorize(
             #[inline(always)]
-            || attempt::<W, D, I>(isa, model, ground, block, left, frozen),
+            || attempt::<W, D, I>(isa, model, ground, block, left, friction),
         );
         block.counters.trials += 1;
         let mut solved = taken & Search::load(isa, &block.contact.search).solved();
-        if frozen && solved.any() {
+        if friction == Friction::Settled && solved.any() {
             solved = isa.vectorize(
                 #[inline(always)]
                 || relax::<W, D, I>(isa, model, ground, block, solved),
@@ -203,8 +231,9 @@ fn attempt<const W: usize, const D: usize, I: Isa<W>>(
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     left: I::M,
-    frozen: bool,
+    friction: Friction,
 ) -> I::M {
+    let frozen = friction != Friction::Coulomb;
     let mut search = Search::load(isa, &block.contact.search);
     let step = search.step;
     let found = residual::<W, D, I>(isa, model, ground, block, step, frozen);
@@ -299,7 +328,7 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Friction is bounded by what the normal impulse of the step before allows.
 #[inline(always)]
-fn freeze<const W: usize, const D: usize, I: Isa<W>>(
+fn bound_by_last<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
     work: &mut Workspace<W>,

@@ -16,6 +16,9 @@ use super::banded::{Band, factor_row, vectorized};
 use super::Isa;
 use std::ops::Range;
 
+/// Unknowns of a body in space.
+const BODY_IN_SPACE: usize = 6;
+
 /// Calls with half-bandwidth H, length of a row, and unknowns of a body K as constants.
 macro_rules! dispatch {
     ($chain:expr, $h:ident, $row:ident, $k:ident => $work:block) => {
@@ -26,7 +29,6 @@ macro_rules! dispatch {
             (10, _) => dispatch!(10, 11, 6, $h, $row, $k, $work),
             (11, _) => dispatch!(11, 12, 6, $h, $row, $k, $work),
             (13, _) => dispatch!(13, 14, 6, $h, $row, $k, $work),
-            (16, _) => dispatch!(16, 17, 6, $h, $row, $k, $work),
             (h, k) => unreachable!("segments of half-bandwidth {h} between bodies of {k} unknowns"),
         }
     };
@@ -89,8 +91,13 @@ impl Chain {
         if let Some(last) = body.checked_sub(1) {
             kept.couple(&[0, last]);
         }
+        let mut band = Band::diagonal(size);
+        if body == BODY_IN_SPACE {
+            // The least that kernels are compiled for with so many unknowns a body.
+            band.couple(&[0, 10]);
+        }
         Self {
-            band: Band::diagonal(size),
+            band,
             kept,
             place,
             unknowns,

@@ -226,8 +226,8 @@ impl Program {
                 transition_speed_m_s: g.transition_speed_m_s,
                 // A foot has a toe and a heel in the plane, two of each in space.
                 adhesion_n: g.adhesion_n * if scene.dimensions == 3 { 0.5 } else { 1.0 },
-                stiffness_n_m: pad_stiffness_n_m(scene, mesh),
-                damping_time_s: pad_damping_time_s(scene, mesh),
+                stiffness_n_m: pad(scene, mesh).0,
+                damping_time_s: pad(scene, mesh).1,
             }),
             drive,
         }
@@ -240,22 +240,22 @@ fn gravity(scene: &Scene) -> [f64; 3] {
     [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos, 0.0]
 }
 
-/// How many times stiffer the pad of a contact point is than the rubber above it, so that its give is a hundredth of
-/// what the body gives anyway.
-const PAD: f64 = 100.0;
+/// Share of the body's thickness by which the pad of a contact point gives under the weight of the whole body.
+const GIVE: f64 = 2.5e-4;
+/// Greatest weight of a contact point in the equations of a step, in masses of the body: beyond it a long step would find
+/// no solution.
+const HEAVIEST: f64 = 100.0;
 
-/// Stiffness of the pad under a contact point [N/m]: that of the column of rubber above it, E A/h, times [`PAD`].
-fn pad_stiffness_n_m(scene: &Scene, mesh: &Mesh) -> f64 {
+/// Stiffness of the pad under a contact point [N/m] and time constant of its damper [s]: twice that of critical damping
+/// under the whole body, 4 √(m/k), so that nothing rebounds.
+fn pad(scene: &Scene, mesh: &Mesh) -> (f64, f64) {
     let thickness_m = mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max);
-    let last = mesh.arc_m.len() - 1;
-    let area_m2 = mesh.width_m * (mesh.arc_m[last] - mesh.arc_m[0]) / mesh.soles.len().max(1) as f64;
-    PAD * scene.material.youngs_modulus_pa * area_m2 / thickness_m
-}
-
-/// Time constant of the pad's damper [s]: twice that of critical damping under the whole body, 4 √(m/k), so that nothing
-/// rebounds.
-fn pad_damping_time_s(scene: &Scene, mesh: &Mesh) -> f64 {
-    4.0 * (body_mass_kg(scene, mesh) / pad_stiffness_n_m(scene, mesh)).sqrt()
+    let mass_kg = body_mass_kg(scene, mesh);
+    let stiffness_n_m = mass_kg * 9.81 / (GIVE * thickness_m);
+    let damping_time_s = 4.0 * (mass_kg / stiffness_n_m).sqrt();
+    let step_s = scene.solver.step_s;
+    let stiffest_n_m = HEAVIEST * mass_kg / (step_s * (step_s + damping_time_s));
+    (stiffness_n_m.min(stiffest_n_m), damping_time_s)
 }
 
 fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
@@ -340,6 +340,8 @@ fn contact_points(soles: &[Sole], coordinates: &Coordinates, system: &Chain) -> 
 /// before contact is solved.
 fn system(coordinates: &Coordinates, stretch: &[Stretch], bend: &[Bend], soles: &[Sole]) -> Chain {
     let on_magnets = !soles.is_empty() && soles.iter().all(|sole| matches!(sole, Sole::Foot { .. }));
+    // A multiplier has no mass of its own: it cannot be eliminated before the magnet that it follows.
+    let on_magnets = on_magnets && coordinates.ties.is_empty();
     let mut system = if on_magnets {
         Chain::condensed(coordinates.count, &coordinates.bodies, coordinates.body_size())
     } else {
