@@ -20,8 +20,9 @@ pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
     isa.vectorize(
         #[inline(always)]
         || {
+            let step_s = model.step_s;
             for (c, contact) in model.contacts.iter().enumerate() {
-                detect_point::<W, D, I>(isa, ground, block, c, contact);
+                detect_point::<W, D, I>(isa, ground, block, c, contact, step_s);
             }
         },
     );
@@ -34,6 +35,7 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     block: &mut Block<W>,
     c: usize,
     contact: &Contact,
+    step_s: f64,
 ) {
     let mut arm = [isa.splat(0.0); 3];
     let gap = match contact.sole {
@@ -58,7 +60,10 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     for axis in 0..D {
         isa.store(arm[axis], &mut block.contact.arm[D * c + axis]);
     }
-    let approach = (gap / ground.lead_s).max(isa.splat(-RECOVERY_M_S));
+    // Above the ground there is no damper yet.
+    let inside = gap.lt(isa.splat(0.0));
+    let lead_s = I::F::select(inside, ground.lead_s, isa.splat(step_s));
+    let approach = (gap / lead_s).max(isa.splat(-RECOVERY_M_S));
     let u = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
     first_guess::<W, D, I>(isa, ground, block, c, &u, approach);
 }
