@@ -27,6 +27,12 @@ pub(super) fn direction<F: Real, const D: usize>(a: [F; 2]) -> [F; 2] {
     [F::select(still, one, a[0] * over), F::select(still, zero, a[1] * over)]
 }
 
+/// a · b along the ground.
+#[inline(always)]
+pub(super) fn along<F: Real, const D: usize>(a: [F; 2], b: [F; 2]) -> F {
+    if D == 2 { a[0] * b[0] } else { a[0] * b[0] + a[1] * b[1] }
+}
+
 /// Coefficient, λ⁰ and first response of a point that moves with u at the start of the step (`u_n`: with its approach).
 ///
 /// A point that was closed, or is about to pass through the ground, is taken as closed. Its speed at the start of the
@@ -45,11 +51,10 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let (open, slide) = (isa.splat(Mode::OPEN), isa.splat(Mode::SLIDE));
     let before = isa.load(&block.mode[c]);
     let was_closed = !before.eq(open);
-    let closed = was_closed | (u[0] + approach).lt(zero);
+    let closed = was_closed | (u[0] + approach).le(zero);
     let along = [u[1], u[2]];
     let speed = length::<I::F, D>(along);
-    // What moves while it sticks is the pad, not the sole.
-    let slow = speed.le(ground.transition_speed) | before.eq(isa.splat(Mode::STICK));
+    let slow = speed.le(ground.transition_speed);
     // One that slid goes on: a guess that it sticks would ask for its whole momentum within one step, which no
     // friction has.
     let sticks = slow & !before.eq(slide);
@@ -68,6 +73,9 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     store_vector::<W, D, I>(isa, everywhere, &warm, &mut work.warm, c);
     response.store(isa, everywhere, &mut work.response, c);
     isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
+    for k in 0..2 {
+        isa.store(zero, &mut work.slip[2 * c + k]);
+    }
 }
 
 /// Another start, where the first led nowhere: what touches at the start of the step sticks, or slides without friction.
@@ -123,7 +131,8 @@ fn assumed<F: Real, const D: usize>(
     let lost = F::select(sticks, zero, viscosity);
     let mut force = [pressed, zero, zero];
     for t in 0..D - 1 {
-        force[1 + t] = F::select(sticks, F::select(closed, point.warm[1 + t], zero), -(sliding * d[t]));
+        force[1 + t] =
+            F::select(sticks, F::select(closed, point.warm[1 + t], zero), -(sliding * d[t]));
     }
     let xx = if D == 2 { stuck - lost } else { stuck - lost * d[0] * d[0] };
     Response {

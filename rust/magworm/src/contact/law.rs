@@ -109,8 +109,7 @@ impl<F: Real> Point<F> {
             along[t] = self.warm[1 + t] - ground.weight * u[1 + t];
         }
         let normal = augmented.max(zero);
-        let friction =
-            if frozen { self.bound } else { ground.friction(self.coefficient, normal) };
+        let friction = if frozen { self.bound } else { ground.friction(self.coefficient, normal) };
         let grip = length::<F, D>(along);
         let slides = grip.gt(friction);
         let share = F::select(slides, friction / F::select(slides, grip, one), one);
@@ -139,7 +138,7 @@ pub(super) struct Response<F> {
 }
 
 impl<F: Real> Response<F> {
-    /// The law linearised at the velocity u.
+    /// The law linearised at the velocity u; where a point has `passed` the place where it sticks, as if it stuck.
     #[inline(always)]
     pub(super) fn at<const D: usize>(
         point: &Point<F>,
@@ -148,20 +147,26 @@ impl<F: Real> Response<F> {
         u: &Vector<F>,
         approach: F,
         frozen: bool,
+        passed: F::Mask,
     ) -> Self {
         let (zero, w) = (u[0].splat(0.0), ground.weight);
         let normal = F::select(found.closed, w, zero);
         let slope = ground.friction_slope(point.coefficient, found.impulse[0]);
-        let dragged = if frozen { zero } else { F::select(found.slides, normal * slope, zero) };
+        let slides = found.slides & !passed;
+        let dragged = if frozen { zero } else { F::select(slides, normal * slope, zero) };
         // w F/|ξ| across the direction of sliding, 0 along it: Coulomb's cone.
-        let across = F::select(found.slides, found.share * w, w);
-        let lost = F::select(found.slides, across, zero);
+        let across = F::select(slides, found.share * w, w);
+        let lost = F::select(slides, across, zero);
         let e = found.pushed;
         let mut response = Self {
             force: found.impulse,
             normal,
             drag: [dragged * e[0], dragged * e[1]],
-            along: [across - lost * e[0] * e[0], -(lost * e[0] * e[1]), across - lost * e[1] * e[1]],
+            along: [
+                across - lost * e[0] * e[0],
+                -(lost * e[0] * e[1]),
+                across - lost * e[1] * e[1],
+            ],
         };
         if D == 2 {
             // Exactly 0 where it slides.
@@ -171,6 +176,9 @@ impl<F: Real> Response<F> {
         let back = response.times::<D>(&known);
         for k in 0..D {
             response.force[k] = response.force[k] + back[k];
+        }
+        for t in 1..D {
+            response.force[t] = F::select(passed, point.warm[t], response.force[t]);
         }
         response
     }
@@ -212,7 +220,9 @@ impl<F: Real> Response<F> {
         c: usize,
     ) {
         let [f, d, a] = [self.force, [self.normal, self.drag[0], self.drag[1]], self.along];
-        for (k, value) in [f[0], f[1], f[2], d[0], d[1], d[2], a[0], a[1], a[2]].into_iter().enumerate() {
+        for (k, value) in
+            [f[0], f[1], f[2], d[0], d[1], d[2], a[0], a[1], a[2]].into_iter().enumerate()
+        {
             super::store_where(isa, mask, value, &mut rows[RESPONSE * c + k]);
         }
     }

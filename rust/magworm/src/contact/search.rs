@@ -68,10 +68,8 @@ impl<F: Real> Search<F> {
         let last = self.trials.gt(one * HALVINGS);
         let taken = enough | last;
         let better = found.lt(self.best[0]);
-        self.best = [
-            F::select(better, found, self.best[0]),
-            F::select(better, self.step, self.best[1]),
-        ];
+        self.best =
+            [F::select(better, found, self.best[0]), F::select(better, self.step, self.best[1])];
         self.trials = self.trials + 1.0;
         let spent = self.trials.gt(one * HALVINGS);
         let next = F::select(spent, self.best[1], self.step * 0.5);

@@ -6,12 +6,12 @@
 //! round: after half of the passes friction is *frozen* at the normal impulses found so far. What is left
 //! minimises a convex energy, and the search finds it.
 
-use super::guess::restart;
+use super::guess::{along, restart};
 use super::law::{Ground, Point, Response};
 use super::points::point_velocity;
 use super::search::Search;
 use super::system::{add_force, arm, solve_linearised};
-use super::{Workspace, load_vector, store_vector, store_where};
+use super::{Mode, Workspace, load_vector, store_vector, store_where};
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::Model;
 use crate::state::Block;
@@ -145,6 +145,7 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
         );
         block.counters.trials += 1;
         let mut solved = taken & Search::load(isa, &block.contact.search).solved();
+        let mut turning = taken & !solved;
         if friction == Friction::Settled && solved.any() {
             solved = isa.vectorize(
                 #[inline(always)]
@@ -152,10 +153,10 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
             );
         }
         left = left & !solved;
+        turning = turning & left;
         if !left.any() || trial == trials {
             break;
         }
-        let turning = taken & left;
         if turning.any() {
             solve_linearised::<W, D, I>(isa, model, block);
             isa.vectorize(
@@ -214,7 +215,12 @@ fn turn<const W: usize, const D: usize, I: Isa<W>>(
         let change = isa.load(&work.target[ghosts + row]) - isa.load(&work.known[row]);
         store_where(isa, mask, change, &mut work.direction[row]);
     }
-    kept.multiply(isa, model.system.kept_entries(&block.matrix), &work.direction, &mut work.imbalance_change);
+    kept.multiply(
+        isa,
+        model.system.kept_entries(&block.matrix),
+        &work.direction,
+        &mut work.imbalance_change,
+    );
     for (c, contact) in model.contacts.iter().enumerate() {
         let arm = arm::<W, D, I>(isa, &work.arm, c);
         let change =
@@ -314,6 +320,14 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
     let approach = isa.load(&block.contact.approach[c]);
     let point = point::<W, D, I>(isa, &block.contact, c);
     let found = point.impulse::<D>(ground, &u, frozen);
+    // What slid the other way passed the place where it sticks.
+    let before = [0, 1].map(|k| isa.load(&block.contact.slip[2 * c + k]));
+    let turned = along::<I::F, D>(found.pushed, before).lt(isa.splat(0.0));
+    let slid = isa.load(&block.mode[c]).eq(isa.splat(Mode::SLIDE));
+    let passed = slid & found.slides & turned;
+    for k in 0..2 {
+        store_where(isa, mask, found.pushed[k], &mut block.contact.slip[2 * c + k]);
+    }
     store_where(isa, mask, found.mode(), &mut block.mode[c]);
     store_where(isa, mask, found.impulse[0], &mut block.normal[c]);
     for t in 0..D - 1 {
@@ -322,7 +336,7 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
         let held = I::F::select(found.slides, found.impulse[1 + t], spring);
         store_where(isa, mask, held, &mut block.tangential[(D - 1) * c + t]);
     }
-    let response = Response::at::<D>(&point, ground, &found, &u, approach, frozen);
+    let response = Response::at::<D>(&point, ground, &found, &u, approach, frozen, passed);
     response.store(isa, mask, &mut block.contact.response, c);
 }
 
@@ -384,4 +398,3 @@ fn point<const W: usize, const D: usize, I: Isa<W>>(
         bound: isa.load(&work.bound[c]),
     }
 }
-

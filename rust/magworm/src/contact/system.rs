@@ -46,7 +46,14 @@ fn assemble<const W: usize, const D: usize, I: Isa<W>>(
         let f = [response.force[1], response.force[0], response.force[2]];
         add_force::<W, D, I>(isa, right, contact.rigid, &arm, &f);
         let stride = unsymmetric::row_length(ghosts) - 1;
-        add_block::<W, D, I>(isa, matrix, [place, stride], contact.rigid, &arm, &columns(&response));
+        add_block::<W, D, I>(
+            isa,
+            matrix,
+            [place, stride],
+            contact.rigid,
+            &arm,
+            &columns(&response),
+        );
     }
 }
 

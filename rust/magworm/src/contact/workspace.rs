@@ -22,6 +22,8 @@ pub struct Workspace<const W: usize> {
     pub response: Rows<W>,
     /// 1 where a point was closed or is about to sink at the start of the step, shape [contacts].
     pub touching: Rows<W>,
+    /// Direction in which friction pushed a point when it was linearised last, shape [contacts × 2].
+    pub slip: Rows<W>,
     /// Velocities of the points, upwards with the approach [m/s], shape [contacts × D].
     pub velocity: Rows<W>,
     /// How they change along the direction of search, shape [contacts × D].
@@ -62,6 +64,7 @@ impl<const W: usize> Workspace<W> {
             bound: of_contacts(1),
             response: of_contacts(RESPONSE),
             touching: of_contacts(1),
+            slip: of_contacts(2),
             velocity: of_contacts(dimensions),
             velocity_change: of_contacts(dimensions),
             matrix: size(unsymmetric::entries(kept)),

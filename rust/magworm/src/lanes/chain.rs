@@ -12,8 +12,8 @@
 //!
 //! A system without bodies to keep, or whose soft unknowns touch the ground, is kept as a whole.
 
-use super::banded::{Band, factor_row, vectorized};
 use super::Isa;
+use super::banded::{Band, factor_row, vectorized};
 use std::ops::Range;
 
 /// Unknowns of a body in space.
@@ -96,14 +96,7 @@ impl Chain {
             // The least that kernels are compiled for with so many unknowns a body.
             band.couple(&[0, 10]);
         }
-        Self {
-            band,
-            kept,
-            place,
-            unknowns,
-            body,
-            segments: segments(size, bodies, body),
-        }
+        Self { band, kept, place, unknowns, body, segments: segments(size, bodies, body) }
     }
 
     /// Makes room for entries between all pairs of the given unknowns.

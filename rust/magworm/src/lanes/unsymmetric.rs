@@ -79,6 +79,10 @@ fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
         }
         isa.store(isa.load(&stored[H]), &mut rows[row][H]);
     }
+    // Beyond the last column an elimination may have left something that is not a number.
+    for (beyond, row) in rows[size..size + H].iter_mut().enumerate() {
+        row[ROW - 1 - beyond..].fill([0.0; W]);
+    }
 }
 
 /// Solves in place: `right` has ghost rows, `full` is used up.

@@ -15,7 +15,7 @@ use crate::drive::DriveModel;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::sin_cos;
 use crate::magnetic::UniformField;
-use crate::scene::{Integrator, Parameter, Scene, SceneError};
+use crate::scene::{Ground, Integrator, Parameter, Scene, SceneError};
 
 /// A compiled scene.
 #[derive(Clone, Debug)]
@@ -220,15 +220,7 @@ impl Program {
                     magnet: UniformField::new(magnetics::cuboid(magnet)),
                 }
             }),
-            ground: scene.ground.as_ref().map(|g| GroundLaw {
-                static_friction: g.static_friction,
-                dynamic_friction: g.dynamic_friction,
-                transition_speed_m_s: g.transition_speed_m_s,
-                // A foot has a toe and a heel in the plane, two of each in space.
-                adhesion_n: g.adhesion_n * if scene.dimensions == 3 { 0.5 } else { 1.0 },
-                stiffness_n_m: pad(scene, mesh).0,
-                damping_time_s: pad(scene, mesh).1,
-            }),
+            ground: scene.ground.as_ref().map(|ground| ground_law(ground, scene, mesh)),
             drive,
         }
     }
@@ -246,16 +238,26 @@ const GIVE: f64 = 2.5e-4;
 /// no solution.
 const HEAVIEST: f64 = 100.0;
 
-/// Stiffness of the pad under a contact point [N/m] and time constant of its damper [s]: twice that of critical damping
-/// under the whole body, 4 √(m/k), so that nothing rebounds.
-fn pad(scene: &Scene, mesh: &Mesh) -> (f64, f64) {
+/// What bears a contact point: a stiff spring with a damper. Its time constant is twice that of critical damping under the
+/// whole body, 4 √(m/k), so that nothing rebounds.
+fn ground_law(ground: &Ground, scene: &Scene, mesh: &Mesh) -> GroundLaw {
     let thickness_m = mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max);
-    let mass_kg = body_mass_kg(scene, mesh);
-    let stiffness_n_m = mass_kg * 9.81 / (GIVE * thickness_m);
+    let (mass_kg, give_m) = (body_mass_kg(scene, mesh), GIVE * thickness_m);
+    let stiffness_n_m = mass_kg * 9.81 / give_m;
     let damping_time_s = 4.0 * (mass_kg / stiffness_n_m).sqrt();
     let step_s = scene.solver.step_s;
     let stiffest_n_m = HEAVIEST * mass_kg / (step_s * (step_s + damping_time_s));
-    (stiffness_n_m.min(stiffest_n_m), damping_time_s)
+    // A foot has a toe and a heel in the plane, two of each in space.
+    let share = if scene.dimensions == 3 { 0.5 } else { 1.0 };
+    GroundLaw {
+        static_friction: ground.static_friction,
+        dynamic_friction: ground.dynamic_friction,
+        // Slower than this a point that slides cannot be told from one whose pad gives.
+        transition_speed_m_s: ground.transition_speed_m_s.max(give_m / damping_time_s),
+        adhesion_n: share * ground.adhesion_n,
+        stiffness_n_m: share * stiffness_n_m.min(stiffest_n_m),
+        damping_time_s,
+    }
 }
 
 fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
@@ -339,7 +341,8 @@ fn contact_points(soles: &[Sole], coordinates: &Coordinates, system: &Chain) -> 
 /// The shape of the equations of a step. Where only magnets touch the ground, what lies between them is eliminated
 /// before contact is solved.
 fn system(coordinates: &Coordinates, stretch: &[Stretch], bend: &[Bend], soles: &[Sole]) -> Chain {
-    let on_magnets = !soles.is_empty() && soles.iter().all(|sole| matches!(sole, Sole::Foot { .. }));
+    let on_magnets =
+        !soles.is_empty() && soles.iter().all(|sole| matches!(sole, Sole::Foot { .. }));
     // A multiplier has no mass of its own: it cannot be eliminated before the magnet that it follows.
     let on_magnets = on_magnets && coordinates.ties.is_empty();
     let mut system = if on_magnets {

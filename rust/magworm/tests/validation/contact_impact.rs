@@ -28,7 +28,8 @@ fn validates_inelastic_landing() {
         .scene("incline-block", &[&ON_FLAT[..], &[("start.height_m", "0.01")]].concat())
         .note(
             "Blocks as above, dropped flat from 10 mm, for 0.5 s. Rebound is the fastest upward \
-            velocity of any node.",
+            velocity of any node: the pads under the points give by micrometres and return at most \
+            a hundredth of the 0.44 m/s.",
         );
     let (mut rebounds, mut remaining) = (Vec::new(), Vec::new());
     for (name, body) in crate::contact_block::blocks() {
@@ -47,7 +48,7 @@ fn validates_inelastic_landing() {
         rebounds.push(rebound);
         remaining.push(left);
     }
-    case.spread("rebound, all blocks", "m/s", &rebounds, 1e-6);
+    case.spread("rebound, all blocks", "m/s", &rebounds, 4.4e-3);
     case.spread("kinetic energy left, all blocks", "of its greatest value", &remaining, 1e-12);
     case.finish();
 }

@@ -93,10 +93,8 @@ fn validates_axial_friction() {
         )
         .scene("incline-block", &edits)
         .note(
-            "T = 1 s, from rest. Static friction holds until a point has the transition speed, \
-            here 1e-6 m/s; the speed at the start of a step decides, so the first step is one of \
-            static friction: ½Δt (μ_s − μ_d) cos α/(sin α − μ_d cos α) of E at Δt = 0.1 ms, 1e-4 \
-            at 40°.",
+            "T = 1 s, from rest. Static friction holds until a point moves faster than its pad gives, \
+            1 mm/s; near the angle a block needs milliseconds to it.",
         );
     let mut figure =
         Figure::new("Axial friction, T = 1 s", "|F| / N = tan α", "E(T) / m [J/kg]", Axes::Linear);
@@ -117,7 +115,7 @@ fn validates_axial_friction() {
             held.push(ratio);
         }
     }
-    case.spread("energy of those that slide", "relative", &errors, 1e-3);
+    case.spread("energy of those that slide", "relative", &errors, 1e-2);
     case.spread("energy of those that stick", "J/kg", &held, 1e-18);
     figure.exact(
         "closed form",
