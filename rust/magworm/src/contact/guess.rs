@@ -80,11 +80,10 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Another start, where the first led nowhere: what touches at the start of the step sticks, or slides without friction.
 #[inline(always)]
-pub(super) fn restart<const W: usize, I: Isa<W>>(
+pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
     work: &mut Workspace<W>,
-    dimensions: usize,
     c: usize,
     sticks: bool,
     mask: I::M,
@@ -93,12 +92,11 @@ pub(super) fn restart<const W: usize, I: Isa<W>>(
     let touching = isa.load(&work.touching[c]).gt(zero);
     let normal = I::F::select(touching, ground.weight, zero);
     let held = if sticks { normal } else { zero };
-    let kept = I::F::select(touching, isa.splat(1.0), zero);
-    let warm = |k: usize| isa.load(&work.warm[dimensions * c + k]) * kept;
     let mut force = [-(normal * isa.load(&work.approach[c])), zero, zero];
     if sticks {
-        force[1] = warm(1);
-        force[2] = if dimensions == 3 { warm(2) } else { zero };
+        for k in 1..D {
+            force[k] = I::F::select(touching, isa.load(&work.warm[D * c + k]), zero);
+        }
     }
     let response = Response { force, normal, drag: [zero; 2], along: [held, zero, held] };
     response.store(isa, mask, &mut work.response, c);

@@ -87,20 +87,20 @@ impl<F: Real> Impulse<F> {
     /// The mode that these are the impulses of.
     #[inline(always)]
     pub(super) fn mode(&self) -> F {
-        let of = |mode| self.share.splat(mode);
-        let closed = F::select(self.slides, of(Mode::SLIDE), of(Mode::STICK));
-        F::select(self.closed, closed, of(Mode::OPEN))
+        let one = self.share;
+        let closed = F::select(self.slides, one.splat(Mode::SLIDE), one.splat(Mode::STICK));
+        F::select(self.closed, closed, one.splat(Mode::OPEN))
     }
 }
 
 impl<F: Real> Point<F> {
-    /// λ(u): the normal part of ξ where it presses, the tangential part cut to the cone. `frozen`: to the bound.
+    /// λ(u): the normal part of ξ where it presses, the tangential part cut to the cone. `bounded`: to its own bound.
     #[inline(always)]
     pub(super) fn impulse<const D: usize>(
         &self,
         ground: &Ground<F>,
         u: &Vector<F>,
-        frozen: bool,
+        bounded: bool,
     ) -> Impulse<F> {
         let (zero, one) = (u[0].splat(0.0), u[0].splat(1.0));
         let augmented = -(ground.weight * u[0]);
@@ -109,7 +109,7 @@ impl<F: Real> Point<F> {
             along[t] = self.warm[1 + t] - ground.weight * u[1 + t];
         }
         let normal = augmented.max(zero);
-        let friction = if frozen { self.bound } else { ground.friction(self.coefficient, normal) };
+        let friction = if bounded { self.bound } else { ground.friction(self.coefficient, normal) };
         let grip = length::<F, D>(along);
         let slides = grip.gt(friction);
         let share = F::select(slides, friction / F::select(slides, grip, one), one);
@@ -146,14 +146,14 @@ impl<F: Real> Response<F> {
         found: &Impulse<F>,
         u: &Vector<F>,
         approach: F,
-        frozen: bool,
+        bounded: bool,
         passed: F::Mask,
     ) -> Self {
         let (zero, w) = (u[0].splat(0.0), ground.weight);
         let normal = F::select(found.closed, w, zero);
         let slope = ground.friction_slope(point.coefficient, found.impulse[0]);
         let slides = found.slides & !passed;
-        let dragged = if frozen { zero } else { F::select(slides, normal * slope, zero) };
+        let dragged = if bounded { zero } else { F::select(slides, normal * slope, zero) };
         // w F/|ξ| across the direction of sliding, 0 along it: Coulomb's cone.
         let across = F::select(slides, found.share * w, w);
         let lost = F::select(slides, across, zero);
@@ -202,12 +202,12 @@ impl<F: Real> Response<F> {
         rows: &[[f64; W]],
         c: usize,
     ) -> Self {
-        let row = |k: usize| isa.load(&rows[RESPONSE * c + k]);
+        let rows = &rows[RESPONSE * c..RESPONSE * (c + 1)];
         Self {
-            force: [row(0), row(1), row(2)],
-            normal: row(3),
-            drag: [row(4), row(5)],
-            along: [row(6), row(7), row(8)],
+            force: [isa.load(&rows[0]), isa.load(&rows[1]), isa.load(&rows[2])],
+            normal: isa.load(&rows[3]),
+            drag: [isa.load(&rows[4]), isa.load(&rows[5])],
+            along: [isa.load(&rows[6]), isa.load(&rows[7]), isa.load(&rows[8])],
         }
     }
 
@@ -219,11 +219,14 @@ impl<F: Real> Response<F> {
         rows: &mut [[f64; W]],
         c: usize,
     ) {
-        let [f, d, a] = [self.force, [self.normal, self.drag[0], self.drag[1]], self.along];
-        for (k, value) in
-            [f[0], f[1], f[2], d[0], d[1], d[2], a[0], a[1], a[2]].into_iter().enumerate()
-        {
-            super::store_where(isa, mask, value, &mut rows[RESPONSE * c + k]);
+        let rows = &mut rows[RESPONSE * c..RESPONSE * (c + 1)];
+        for k in 0..3 {
+            super::store_where(isa, mask, self.force[k], &mut rows[k]);
+            super::store_where(isa, mask, self.along[k], &mut rows[6 + k]);
+        }
+        super::store_where(isa, mask, self.normal, &mut rows[3]);
+        for k in 0..2 {
+            super::store_where(isa, mask, self.drag[k], &mut rows[4 + k]);
         }
     }
 }

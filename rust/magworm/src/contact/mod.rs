@@ -1,20 +1,31 @@
 //! Ground contact: fully inelastic, with static and dynamic friction that sticks exactly.
 //!
 //! Each contact point has a gap φ, a normal velocity u_n and a velocity u_t along the ground (a number in the
-//! plane, a vector in space), all linear in the velocities at the end of the step. Signorini's law at the level
-//! of velocities, 0 ≤ λ_n ⟂ u_n + φ/Δt ≥ 0, lets a point come to rest on the ground without rebound. Friction
-//! follows the paper: a point that moves no faster than v_d holds up to |λ_t| ≤ μ_s λ_n + D_f Δt; beyond that it
-//! slides against F = μ_d λ_n + D_f Δt, λ_t = −F u_t/|u_t| (Coulomb's cone).
+//! plane, a vector in space), all linear in the velocities at the end of the step. Under it lies a *pad*, a spring k
+//! with a damper k τ, so stiff that the whole body's weight presses it in by a four-thousandth of the body's
+//! thickness, and so damped that nothing rebounds:
 //!
-//! Both laws are read from the augmented impulse ξ = λ⁰ − w u, with λ⁰ the impulse of the step before and a
-//! penalty w (Alart & Curnier 1991): λ_n = max(ξ_n, 0), and λ_t is ξ_t, cut to the length F(λ_n). The residual
-//! velocity of a point that is held, (λ⁰ − λ)/w, vanishes in a steady state: there is no creep. So the step is one
-//! piecewise smooth equation in the velocities of the bodies, S v − s = Jᵀ λ(J v), which Newton's
-//! iteration solves with a line search ([`solve`]); friction that grows with the normal impulse makes
-//! its matrix unsymmetric. Soft unknowns are eliminated beforehand ([`crate::lanes::chain`]).
+//! ```text
+//! λ_n = max(0, −w (u_n + φ/(Δt + τ))),  w = k Δt (Δt + τ)       (above the ground φ/Δt: no damper yet)
+//! ξ_t = λ⁰ − w u_t,  λ_t = ξ_t cut to the length F(λ_n)
+//! ```
+//!
+//! with λ⁰ the impulse of the pad's spring along the ground at the start. A point that sticks stays where it is, as
+//! the spring remembers. Friction follows the paper: a point that moves no faster than v_d holds up to
+//! F = μ_s λ_n + D_f Δt; beyond that it slides against F = μ_d λ_n + D_f Δt (Coulomb's cone, read from the
+//! augmented impulse ξ as Alart & Curnier 1991 do).
+//!
+//! Rigid feet on rigid ground have no limit of short steps: with friction as here several motions may follow from
+//! one state, or none (Painlevé). On pads they have, and a solution is found much more often.
+//!
+//! A step is one piecewise smooth equation in the velocities of the bodies, S v − s = Jᵀ λ(J v). [`solve`] solves it by
+//! Newton's iteration; friction that grows with the normal impulse makes its matrix unsymmetric. Soft
+//! unknowns are eliminated beforehand ([`crate::lanes::chain`]).
 
+mod bounded;
 mod guess;
 mod law;
+mod newton;
 mod points;
 mod search;
 mod solve;

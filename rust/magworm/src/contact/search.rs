@@ -99,8 +99,8 @@ impl<F: Real> Search<F> {
     pub(super) fn store<const W: usize, I: Isa<W, F = F>>(&self, isa: I, rows: &mut [[f64; W]]) {
         let [best, place] = self.best;
         let all = [self.step, self.start, best, place, self.trials, self.tolerance];
-        for (k, value) in all.into_iter().enumerate() {
-            isa.store(value, &mut rows[k]);
+        for k in 0..ROWS {
+            isa.store(all[k], &mut rows[k]);
         }
     }
 }

@@ -118,10 +118,11 @@ fn add_block<const W: usize, const D: usize, I: Isa<W>>(
     }
     if D == 2 {
         let [x, y] = [columns[0], columns[1]];
-        let torque = |force: [I::F; 3]| arm[0] * force[1] - arm[1] * force[0];
         let turned = [y[0] * arm[0] - x[0] * arm[1], y[1] * arm[0] - x[1] * arm[1], arm[2]];
-        for (column, force) in [x, y, turned].into_iter().enumerate() {
-            add(isa, &mut matrix[place + 2 * stride + column], torque(force));
+        let forces = [x, y, turned];
+        for column in 0..3 {
+            let torque = arm[0] * forces[column][1] - arm[1] * forces[column][0];
+            add(isa, &mut matrix[place + 2 * stride + column], torque);
         }
         for row in 0..2 {
             add(isa, &mut matrix[place + row * stride + 2], turned[row]);

@@ -1,0 +1,204 @@
+//! One iteration of Newton and its line search: a direction, trials along it, and the law linearised where one is taken.
+
+use super::guess::along;
+use super::law::{Ground, Point, Response};
+use super::points::point_velocity;
+use super::search::Search;
+use super::system::{add_force, arm};
+use super::{Mode, Workspace, load_vector, store_vector, store_where};
+use crate::lanes::{Isa, Mask, Real};
+use crate::model::Model;
+use crate::state::Block;
+
+/// Residual of a solution relative to s.
+const TOLERANCE: f64 = 1e-9;
+
+/// Before the first iteration: nothing moves, and nothing is known.
+#[inline(always)]
+pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
+    let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
+    let kept = model.system.kept();
+    let symmetric = model.system.kept_entries(&block.matrix);
+    let work = &mut block.contact;
+    let mut size = zero;
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        let right = isa.load(&block.right[unknown]);
+        let diagonal = isa.load(&symmetric[kept.at(row, row)]);
+        // Multipliers have no mass; each system of theirs is solved as it is.
+        let heavy = diagonal.gt(zero);
+        let mobility = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
+        isa.store(mobility, &mut work.mobility[row]);
+        isa.store(-right, &mut work.imbalance[row]);
+        isa.store(zero, &mut work.known[row]);
+        size = size + right * right * mobility;
+    }
+    for c in 0..model.contacts.len() {
+        let mut velocity = [zero; 3];
+        velocity[0] = isa.load(&work.approach[c]);
+        store_vector::<W, D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
+    }
+    Search::new(size * (TOLERANCE * TOLERANCE)).store(isa, &mut work.search);
+}
+
+/// A new direction in the lanes of a mask, to the solution of the linearised system, and what changes along it.
+#[inline(always)]
+pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+    mask: I::M,
+) {
+    let kept = model.system.kept();
+    let ghosts = kept.half_bandwidth();
+    let work = &mut block.contact;
+    for row in 0..kept.size() {
+        let change = isa.load(&work.target[ghosts + row]) - isa.load(&work.known[row]);
+        store_where(isa, mask, change, &mut work.direction[row]);
+    }
+    kept.multiply(
+        isa,
+        model.system.kept_entries(&block.matrix),
+        &work.direction,
+        &mut work.imbalance_change,
+    );
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let change =
+            point_velocity::<W, D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
+        store_vector::<W, D, I>(isa, mask, &change, &mut work.velocity_change, c);
+    }
+}
+
+/// One trial in the lanes that are left; which of them took it.
+#[inline(always)]
+pub(super) fn attempt<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    left: I::M,
+    bounded: bool,
+) -> I::M {
+    let mut search = Search::load(isa, &block.contact.search);
+    let step = search.step;
+    let found = residual::<W, D, I>(isa, model, ground, block, step, bounded);
+    let taken = search.judge(found) & left;
+    search.store(isa, &mut block.contact.search);
+    if taken.any() {
+        advance(isa, block, step, taken);
+        for c in 0..model.contacts.len() {
+            linearise::<W, D, I>(isa, ground, block, c, taken, bounded);
+        }
+    }
+    taken
+}
+
+/// |S v − s − Jᵀ λ|² at a step along the direction.
+#[inline(always)]
+fn residual<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    step: I::F,
+    bounded: bool,
+) -> I::F {
+    let work = &mut block.contact;
+    for row in 0..work.residual.len() {
+        let change = isa.load(&work.imbalance_change[row]) * step;
+        isa.store(isa.load(&work.imbalance[row]) + change, &mut work.residual[row]);
+    }
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let mut u = load_vector::<W, D, I>(isa, &work.velocity, c);
+        let change = load_vector::<W, D, I>(isa, &work.velocity_change, c);
+        for k in 0..D {
+            u[k] = u[k] + change[k] * step;
+        }
+        let point = point::<W, D, I>(isa, work, c);
+        let [up, x, z] = point.impulse::<D>(ground, &u, bounded).impulse;
+        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let rows = &mut work.residual[contact.place..];
+        add_force::<W, D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
+    }
+    let mut sum = isa.splat(0.0);
+    for row in 0..work.residual.len() {
+        let residual = isa.load(&work.residual[row]);
+        sum = sum + residual * residual * isa.load(&work.mobility[row]);
+    }
+    sum
+}
+
+/// Goes a step along the direction in the lanes of a mask.
+#[inline(always)]
+fn advance<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, step: I::F, mask: I::M) {
+    let work = &mut block.contact;
+    follow(isa, &mut work.known, &work.direction, step, mask);
+    follow(isa, &mut work.imbalance, &work.imbalance_change, step, mask);
+    follow(isa, &mut work.velocity, &work.velocity_change, step, mask);
+}
+
+#[inline(always)]
+fn follow<const W: usize, I: Isa<W>>(
+    isa: I,
+    rows: &mut [[f64; W]],
+    changes: &[[f64; W]],
+    step: I::F,
+    mask: I::M,
+) {
+    for k in 0..rows.len() {
+        let next = isa.load(&rows[k]) + isa.load(&changes[k]) * step;
+        store_where(isa, mask, next, &mut rows[k]);
+    }
+}
+
+/// Impulses, mode and response of a point at its velocity, in the lanes of a mask.
+#[inline(always)]
+fn linearise<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    c: usize,
+    mask: I::M,
+    bounded: bool,
+) {
+    let u = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
+    let approach = isa.load(&block.contact.approach[c]);
+    let point = point::<W, D, I>(isa, &block.contact, c);
+    let found = point.impulse::<D>(ground, &u, bounded);
+    // What slid the other way passed the place where it sticks.
+    let slip = &mut block.contact.slip;
+    let before = [isa.load(&slip[2 * c]), isa.load(&slip[2 * c + 1])];
+    let turned = along::<I::F, D>(found.pushed, before).lt(isa.splat(0.0));
+    let slid = isa.load(&block.mode[c]).eq(isa.splat(Mode::SLIDE));
+    let passed = slid & found.slides & turned;
+    for k in 0..2 {
+        store_where(isa, mask, found.pushed[k], &mut slip[2 * c + k]);
+    }
+    store_where(isa, mask, found.mode(), &mut block.mode[c]);
+    store_where(isa, mask, found.impulse[0], &mut block.normal[c]);
+    for t in 0..D - 1 {
+        // What the spring of the pad holds without its damper, where it does not slip.
+        let spring = found.impulse[1 + t] + ground.viscous * u[1 + t];
+        let held = I::F::select(found.slides, found.impulse[1 + t], spring);
+        store_where(isa, mask, held, &mut block.tangential[(D - 1) * c + t]);
+    }
+    let response = Response::at::<D>(&point, ground, &found, &u, approach, bounded, passed);
+    response.store(isa, mask, &mut block.contact.response, c);
+}
+
+#[inline(always)]
+fn point<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    work: &Workspace<W>,
+    c: usize,
+) -> Point<I::F> {
+    Point {
+        warm: load_vector::<W, D, I>(isa, &work.warm, c),
+        coefficient: isa.load(&work.coefficient[c]),
+        bound: isa.load(&work.bound[c]),
+    }
+}
