@@ -15,8 +15,8 @@ from training_settings import TrainingSettings
 from magworm_gym import Scene
 from magworm_gym.sb3 import MagWormVecEnv
 
-SEARCH = SearchSize(seeds=1, scouts=96, population=16, generations=6, starts=2, duration_s=4.0)
-"""How the teacher is found."""
+SEARCH = SearchSize(seeds=1, scouts=128, population=16, generations=10, starts=2, duration_s=5.0)
+"""How the teacher is found: the search that the small budget gives a rival."""
 STEPS = 200
 NOISE = 0.15
 NOISY_SHARE = 0.5

@@ -199,7 +199,7 @@ def _taught(comparison: GoalComparison) -> str:
         return ""
     return (
         f", after it was begun as a copy of a cycle of “{FAMILIES[teacher].title}” (behaviour cloning), "
-        "found by a short search of its own"
+        "found by a search of its own"
     )
 
 
