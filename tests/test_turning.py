@@ -137,7 +137,7 @@ def test_a_comparison_leaves_a_report_and_is_not_done_twice(
 
 def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(demonstration, "SEARCH", SHORT)
-    monkeypatch.setattr(demonstration, "STEPS", 40)
+    monkeypatch.setattr(demonstration, "STEPS", 120)
     monkeypatch.setattr(demonstration, "EPOCHS", 300)
     config, out = tmp_path / "taught.toml", tmp_path / "run"
     config.write_text(
@@ -147,7 +147,7 @@ def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: p
     )
     train.main(["turn", "--config", str(config), "--out", str(out)])
     taught = json.loads((out / "seed-0" / "taught.json").read_text())
-    assert taught["steps"] == 40 * 8 + 8 * 10  # shown, and searched: eight trials of ten steps
+    assert taught["steps"] == 120 * 8 + 8 * 10  # shown, and searched: eight trials of ten steps
     scene = load_scene(SCENES / "turn-3-pair.toml")
     family = FAMILIES["pair"]
     found = searched(scene, "turn", family, SHORT, 0)

@@ -22,7 +22,8 @@ pub(super) fn solve_linearised<const W: usize, const D: usize, I: Isa<W>>(
         #[inline(always)]
         || assemble::<W, D, I>(isa, model, block),
     );
-    unsymmetric::solve(isa, band, &mut block.contact.matrix, &mut block.contact.target);
+    let body = model.system.body();
+    unsymmetric::solve(isa, band, body, &mut block.contact.matrix, &mut block.contact.target);
     block.counters.factorisations += 1;
 }
 

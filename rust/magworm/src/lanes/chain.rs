@@ -122,6 +122,11 @@ impl Chain {
         &self.kept
     }
 
+    /// Unknowns of a body where only bodies are kept, else 0.
+    pub fn body(&self) -> usize {
+        self.body
+    }
+
     /// The kept unknowns in ascending order.
     pub fn unknowns(&self) -> &[usize] {
         &self.unknowns

@@ -85,14 +85,23 @@ fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     }
 }
 
-/// Solves in place: `right` has ghost rows, `full` is used up.
+/// Solves in place: `right` has ghost rows, `full` is used up. A `body` of so many unknowns only meets itself and its
+/// neighbours, which leaves half of the work; 0 where there is no such order.
 pub fn solve<const W: usize, I: Isa<W>>(
     isa: I,
     band: &Band,
+    body: usize,
     full: &mut [[f64; W]],
     right: &mut [[f64; W]],
 ) {
     let size = band.size();
+    match (band.half_bandwidth(), body) {
+        (5, 3) => return vectorized!(isa, solve_bodies::<W, I, 5, 11, 3>(isa, size, full, right)),
+        (11, 6) => {
+            return vectorized!(isa, solve_bodies::<W, I, 11, 23, 6>(isa, size, full, right));
+        }
+        _ => {}
+    }
     dispatch!(band, H, ROW => {
         vectorized!(isa, {
             eliminate::<W, I, H, ROW>(isa, size, full, right);
@@ -134,6 +143,63 @@ fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     }
 }
 
+/// The same for bodies of B unknowns: a row meets the body before its own, its own and the one behind it: 1,060 products for
+/// three bodies of six in place of 2,180.
+#[inline(always)]
+fn solve_bodies<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const B: usize>(
+    isa: I,
+    size: usize,
+    full: &mut [[f64; W]],
+    right: &mut [[f64; W]],
+) {
+    let (rows, _) = full.as_chunks_mut::<ROW>();
+    for body in 0..size / B {
+        for slot in 0..B {
+            eliminate_in_body::<W, I, H, ROW, B>(isa, rows, right, H + B * body + slot, slot);
+        }
+    }
+    substitute::<W, I, H, ROW>(isa, size, full, right);
+}
+
+#[inline(always)]
+fn eliminate_in_body<
+    const W: usize,
+    I: Isa<W>,
+    const H: usize,
+    const ROW: usize,
+    const B: usize,
+>(
+    isa: I,
+    rows: &mut [[[f64; W]; ROW]],
+    right: &mut [[f64; W]],
+    row: usize,
+    slot: usize,
+) {
+    let one = isa.splat(1.0);
+    let (above, below) = rows.split_at_mut(row);
+    let above = &above[row - H..];
+    let (first, last) = (B - 1 - slot, ROW - 1 - slot);
+    let mut current = [one; ROW];
+    for k in first..=last {
+        current[k] = isa.load(&below[0][k]);
+    }
+    let mut y = isa.load(&right[row]);
+    for k in first..H {
+        let l = current[k] * isa.load(&above[k][H]);
+        // The row that eliminates this column reaches to the end of the body behind its own.
+        let reach = 2 * B - 1 - (slot + 1 + k) % B;
+        for j in 1..=reach {
+            current[k + j] = current[k + j] - l * isa.load(&above[k][H + j]);
+        }
+        y = y - l * isa.load(&right[row - H + k]);
+    }
+    isa.store(one / current[H], &mut below[0][H]);
+    for k in H + 1..=last {
+        isa.store(current[k], &mut below[0][k]);
+    }
+    isa.store(y, &mut right[row]);
+}
+
 #[inline(always)]
 fn substitute<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
@@ -157,6 +223,26 @@ mod tests {
     use crate::lanes::Scalar;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
+
+    /// Three bodies of six unknowns: what bodies further apart than neighbours leave at zero may be skipped.
+    #[test]
+    fn bodies_solve_as_a_band_does() {
+        let mut band = Band::diagonal(18);
+        band.couple(&[0, 11]);
+        let mut full = vec![[0.0]; entries(&band)];
+        for (row, column) in (0..18usize).flat_map(|row| (0..18).map(move |column| (row, column))) {
+            if (row / 6).abs_diff(column / 6) < 2 {
+                let entry = ((3 * row + 7 * column) % 11) as f64 / 11.0;
+                full[at(&band, row, column)] = [entry + if row == column { 20.0 } else { 0.0 }];
+            }
+        }
+        let mut right = vec![[0.0]; rows(&band)];
+        (0..18).for_each(|row| right[11 + row] = [row as f64 - 7.0]);
+        let (mut full_too, mut right_too) = (full.clone(), right.clone());
+        solve(Scalar, &band, 6, &mut full, &mut right);
+        solve(Scalar, &band, 0, &mut full_too, &mut right_too);
+        assert_eq!(right, right_too);
+    }
 
     proptest! {
         #[test]
@@ -191,7 +277,7 @@ mod tests {
             let right = DVector::from_iterator(size, numbers.iter().copied().take(size));
             let mut solution = vec![[0.0]; rows(&band)];
             (0..size).for_each(|row| solution[h + row] = [right[row]]);
-            solve(Scalar, &band, &mut full, &mut solution);
+            solve(Scalar, &band, 0, &mut full, &mut solution);
             let expected = dense.lu().solve(&right).unwrap();
             for row in 0..size {
                 prop_assert!((solution[h + row][0] - expected[row]).abs() < 1e-12);

@@ -46,8 +46,9 @@ impl Model {
     fn explain_ground(&self) -> String {
         match &self.program.ground {
             Some(law) => format!(
-                "{} contact points, static friction {}, dynamic {}",
+                "{} contact points that {} of the unknowns move, static friction {}, dynamic {}",
                 self.contacts.len(),
+                self.system.unknowns().len(),
                 law.static_friction,
                 law.dynamic_friction
             ),

@@ -14,7 +14,7 @@ pub struct Solver {
     pub magnet_model: MagnetModel,
     /// Gauss–Legendre points per edge of a charged face.
     pub quadrature_order: usize,
-    /// Most contact iterations per step.
+    /// Most trials of the contact solve per step, shared out among its iterations, see [`crate::contact`].
     pub contact_iterations: usize,
     /// Discrete curvature of the rod.
     pub curvature: Curvature,
