@@ -125,13 +125,17 @@ def measure(scene: str, repetitions: int) -> dict[str, Any]:
         "stride_converged_range_mm": [min(strides), max(strides)],
         "stride_error": abs(stride / converged - 1),
     }
-    (stride, yaw), (fine_stride, fine_yaw) = turning(None), turning(SHORT_STEPS_S[0])
+    stride, yaw = turning(None)
+    fine_strides, fine_yaws = zip(*(turning(step) for step in SHORT_STEPS_S), strict=True)
+    fine_stride, fine_yaw = statistics.mean(fine_strides), statistics.mean(fine_yaws)
     space = summary("turn-3", rates("MagWorm/Turn-v0", "turn-3", repetitions)) | {
         "stride_mm": stride,
         "stride_converged_mm": fine_stride,
+        "stride_converged_range_mm": [min(fine_strides), max(fine_strides)],
         "stride_error": abs(stride / fine_stride - 1),
         "yaw_deg": yaw,
         "yaw_converged_deg": fine_yaw,
+        "yaw_converged_range_deg": [min(fine_yaws), max(fine_yaws)],
         "yaw_error": abs(yaw / fine_yaw - 1),
     }
     return plane | {"space": space}
@@ -141,6 +145,7 @@ def table(result: dict[str, Any]) -> str:
     """The figures as text."""
     low, high = result["stride_converged_range_mm"]
     space = result["space"]
+    strides, yaws = space["stride_converged_range_mm"], space["yaw_converged_range_deg"]
     return "\n".join(
         [
             *speeds(result),
@@ -149,9 +154,10 @@ def table(result: dict[str, Any]) -> str:
             f" error {100 * result['stride_error']:.2f} %",
             *speeds(space),
             f"stride of a pass 3 mm aside {space['stride_mm']:.3f} mm; converged"
-            f" {space['stride_converged_mm']:.3f} mm; error {100 * space['stride_error']:.2f} %",
-            f"yaw of it {space['yaw_deg']:.3f}°; converged {space['yaw_converged_deg']:.3f}°;"
-            f" error {100 * space['yaw_error']:.2f} %",
+            f" {space['stride_converged_mm']:.3f} ({strides[0]:.3f} to {strides[1]:.3f}) mm;"
+            f" error {100 * space['stride_error']:.2f} %",
+            f"yaw of it {space['yaw_deg']:.3f}°; converged {space['yaw_converged_deg']:.3f}°"
+            f" ({yaws[0]:.3f}° to {yaws[1]:.3f}°); error {100 * space['yaw_error']:.2f} %",
         ]
     )
 
