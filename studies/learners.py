@@ -123,9 +123,7 @@ def classes() -> dict[str, type[BaseAlgorithm]]:
     return {**found, "TQC": sb3_contrib.TQC, "CrossQ": sb3_contrib.CrossQ}
 
 
-def measured(
-    name: str, kind: type[BaseAlgorithm], seed: int, seconds: float, threads: int | None
-) -> dict[str, Any]:
+def measured(name: str, kind: type[BaseAlgorithm], seed: int, seconds: float) -> dict[str, Any]:
     """Trains one policy for a time and measures its mean action."""
     torch.set_num_threads(1)
     set_random_seed(seed)
