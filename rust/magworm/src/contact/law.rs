@@ -10,7 +10,7 @@ use crate::model::GroundLaw;
 /// fraction of a millinewton.
 const GRAZE: f64 = 4.0;
 
-/// Friction and penalty of each lane in one step.
+/// Friction and pads of each lane in one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<F> {
     /// μ_s.

@@ -51,7 +51,7 @@ impl Mode {
     pub const SLIDE: f64 = 2.0;
 }
 
-/// A vector at a contact point: upwards, then along x and in space along z.
+/// Components of a point: upwards, then along x and in space along z; of an arm along x, y, z.
 type Vector<F> = [F; 3];
 
 /// Writes the lanes of a mask.

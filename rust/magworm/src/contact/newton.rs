@@ -4,7 +4,7 @@ use super::guess::along;
 use super::law::{Ground, Point, Response};
 use super::points::point_velocity;
 use super::search::Search;
-use super::system::{add_force, arm};
+use super::system::add_force;
 use super::{Mode, Workspace, load_vector, store_vector, store_where};
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::Model;
@@ -66,7 +66,7 @@ pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
         &mut work.imbalance_change,
     );
     for (c, contact) in model.contacts.iter().enumerate() {
-        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let arm = load_vector::<W, D, I>(isa, &work.arm, c);
         let change =
             point_velocity::<W, D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
         store_vector::<W, D, I>(isa, mask, &change, &mut work.velocity_change, c);
@@ -120,7 +120,7 @@ fn residual<const W: usize, const D: usize, I: Isa<W>>(
         }
         let point = point::<W, D, I>(isa, work, c);
         let [up, x, z] = point.impulse::<D>(ground, &u, bounded).impulse;
-        let arm = arm::<W, D, I>(isa, &work.arm, c);
+        let arm = load_vector::<W, D, I>(isa, &work.arm, c);
         let rows = &mut work.residual[contact.place..];
         add_force::<W, D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
     }

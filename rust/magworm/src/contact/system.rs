@@ -4,6 +4,7 @@
 //! matrix follows from cross products alone.
 
 use super::law::Response;
+use super::load_vector;
 use crate::elastic::cross;
 use crate::lanes::{Isa, Real, unsymmetric};
 use crate::model::Model;
@@ -40,7 +41,7 @@ fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     }
     for (c, contact) in model.contacts.iter().enumerate() {
         let response = Response::load(isa, &block.contact.response, c);
-        let arm = arm::<W, D, I>(isa, &block.contact.arm, c);
+        let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);
         let place = unsymmetric::at(band, contact.place, contact.place);
         let matrix = &mut block.contact.matrix;
         let right = &mut block.contact.target[ghosts + contact.place..];
@@ -56,16 +57,6 @@ fn assemble<const W: usize, const D: usize, I: Isa<W>>(
             &columns(&response),
         );
     }
-}
-
-/// Arm of a point.
-#[inline(always)]
-pub(super) fn arm<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    rows: &[[f64; W]],
-    c: usize,
-) -> [I::F; 3] {
-    super::load_vector::<W, D, I>(isa, rows, c)
 }
 
 /// Columns of C along x, y, z.

@@ -14,9 +14,9 @@ pub struct Workspace<const W: usize> {
     pub approach: Rows<W>,
     /// Coefficient of friction in this step, shape [contacts].
     pub coefficient: Rows<W>,
-    /// λ⁰, upwards and along the ground [N·s], shape [contacts × D].
+    /// Impulses of the step before, upwards and along the ground: there λ⁰ [N·s], shape [contacts × D].
     pub warm: Rows<W>,
-    /// Greatest tangential impulse where friction is frozen [N·s], shape [contacts].
+    /// Greatest tangential impulse where friction has a bound of its own [N·s], shape [contacts].
     pub bound: Rows<W>,
     /// Impulses linearised in the velocities of the points, see `law::Response`, shape [contacts × 9].
     pub response: Rows<W>,

@@ -1,0 +1,76 @@
+//! Chains against dense factorisations.
+
+use super::*;
+use crate::lanes::Scalar;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// A random chain: soft unknowns, bodies of `body` unknowns, entries where `reach` allows and no body lies between.
+fn random(chain: &Chain, reach: usize, numbers: &[f64]) -> (DMatrix<f64>, Vec<[f64; 1]>) {
+    let size = chain.place.len();
+    let mut next = numbers.iter().cycle();
+    let (mut dense, mut stored) = (DMatrix::zeros(size, size), vec![[0.0]; chain.entries()]);
+    for row in 0..size {
+        for column in row.saturating_sub(reach)..=row {
+            let parts = (column..=row).map(|k| chain.place[k].map(|place| place / chain.body));
+            // Neighbours only: a segment and the bodies at its ends, or a body and itself.
+            let bodies: Vec<_> = parts.collect();
+            let across = bodies.len() > 2
+                && bodies[1..bodies.len() - 1].iter().any(|part| {
+                    part.is_some() && *part != bodies[0] && part != bodies.last().expect("two ends")
+                });
+            let both = bodies[0].is_some() && bodies.last().expect("two ends").is_some();
+            if across || both && bodies[0] != *bodies.last().expect("two ends") {
+                continue;
+            }
+            let value = next.next().expect("a cycle") + if row == column { 30.0 } else { 0.0 };
+            dense[(row, column)] = value;
+            dense[(column, row)] = value;
+            stored[chain.at(row, column)] = [value];
+        }
+    }
+    (dense, stored)
+}
+
+fn solves(bodies: &[usize], body: usize, size: usize, reach: usize, numbers: &[f64]) -> f64 {
+    let mut chain = Chain::condensed(size, bodies, body);
+    let mut free = 0;
+    for &first in bodies.iter().chain([&size]) {
+        // A segment with the body behind it.
+        for row in free..(first + body).min(size) {
+            chain.couple(&[row.saturating_sub(reach).max(free), row]);
+        }
+        free = first + body;
+    }
+    let (dense, mut matrix) = random(&chain, reach, numbers);
+    let mut right: Vec<[f64; 1]> = (0..size).map(|k| [numbers[k % numbers.len()] + 0.5]).collect();
+    let expected = DVector::from_iterator(size, right.iter().map(|r| r[0]));
+    let expected = dense.lu().solve(&expected).expect("regular");
+    chain.condense(Scalar, &mut matrix, &mut right);
+    let kept = chain.kept();
+    let mut own: Vec<[f64; 1]> = chain.kept_entries(&matrix)[..kept.entries()].to_vec();
+    let mut found: Vec<[f64; 1]> = chain.unknowns().iter().map(|&k| right[k]).collect();
+    kept.factor(Scalar, &mut own);
+    kept.solve(Scalar, &own, &mut found);
+    let mut solution = vec![[0.0]; size];
+    chain.unknowns().iter().zip(found).for_each(|(&k, value)| solution[k] = value);
+    chain.recover(Scalar, &matrix, &right, &mut solution);
+    (0..size).map(|k| (solution[k][0] - expected[k]).abs()).fold(0.0, f64::max)
+}
+
+proptest! {
+    #[test]
+    fn chains_solve_like_a_dense_factorisation(
+        numbers in prop::collection::vec(-1.0..1.0f64, 97),
+        soft in prop::collection::vec(0usize..12, 4),
+    ) {
+        for (body, reach) in [(3, 6), (6, 13)] {
+            let mut bodies = vec![soft[0]];
+            for between in &soft[1..3] {
+                bodies.push(bodies[bodies.len() - 1] + body + between);
+            }
+            let size = bodies[2] + body + soft[3];
+            prop_assert!(solves(&bodies, body, size, reach, &numbers) < 1e-12);
+        }
+    }
+}
