@@ -162,7 +162,7 @@ fn mark_broken<const W: usize, I: Isa<W>>(
             block.status[lane] = Status::from_code(row[lane] as u8).unwrap_or(Status::NotFinite);
             block.running[0][lane] = 0.0;
             // The impulses of the step that failed may be anything, NaN included.
-            for rows in [&mut block.mode, &mut block.normal, &mut block.tangential] {
+            for rows in [&mut block.mode, &mut block.normal, &mut block.pad] {
                 rows.iter_mut().for_each(|row| row[lane] = 0.0);
             }
         }

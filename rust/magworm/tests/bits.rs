@@ -72,7 +72,7 @@ fn robots_in_space_step_stick_and_slide_in_every_direction() {
             for contact in 0..model.contacts.len() {
                 let [mode, _, x, z] = world.batch.view(place, |view| view.contact(contact))[..]
                 else {
-                    panic!("a contact in space has two tangential impulses")
+                    panic!("the pad of a contact in space holds two impulses")
                 };
                 if mode == Mode::OPEN {
                     open += 1;

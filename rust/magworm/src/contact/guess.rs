@@ -61,7 +61,7 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let normal = I::F::select(was_closed, isa.load(&block.normal[c]), zero);
     let mut warm = [normal, zero, zero];
     for t in 0..D - 1 {
-        warm[1 + t] = I::F::select(was_closed, isa.load(&block.tangential[(D - 1) * c + t]), zero);
+        warm[1 + t] = I::F::select(was_closed, isa.load(&block.pad[(D - 1) * c + t]), zero);
     }
     let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
     let point = Point { warm, coefficient, bound: zero };

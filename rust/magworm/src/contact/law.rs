@@ -23,8 +23,8 @@ pub struct Ground<F> {
     pub transition_speed: F,
     /// w = k Δt (Δt + τ) [kg].
     pub weight: F,
-    /// k Δt τ, the part of w that is viscous [kg].
-    pub viscous: F,
+    /// τ/(Δt + τ), the share of w that is viscous.
+    pub viscous_share: F,
     /// Δt + τ [s].
     pub lead_s: F,
 }
@@ -42,7 +42,7 @@ impl<F: Real> Ground<F> {
             adhesion: one * (law.adhesion_n * dt),
             transition_speed: one * law.transition_speed_m_s,
             weight: one * (law.stiffness_n_m * dt * (dt + law.damping_time_s)),
-            viscous: one * (law.stiffness_n_m * dt * law.damping_time_s),
+            viscous_share: one * (law.damping_time_s / (dt + law.damping_time_s)),
             lead_s: one * (dt + law.damping_time_s),
         }
     }

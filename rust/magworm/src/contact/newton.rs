@@ -180,11 +180,11 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
     }
     store_where(isa, mask, found.mode(), &mut block.mode[c]);
     store_where(isa, mask, found.impulse[0], &mut block.normal[c]);
-    for t in 0..D - 1 {
-        // What the spring of the pad holds without its damper, where it does not slip.
-        let spring = found.impulse[1 + t] + ground.viscous * u[1 + t];
-        let held = I::F::select(found.slides, found.impulse[1 + t], spring);
-        store_where(isa, mask, held, &mut block.tangential[(D - 1) * c + t]);
+    for t in 1..D {
+        // The pad gives by (λ⁰ − λ)/w; what its spring holds then remains for the next step.
+        let given = (point.warm[t] - found.impulse[t]) * ground.viscous_share;
+        let held = found.impulse[t] + given;
+        store_where(isa, mask, held, &mut block.pad[(D - 1) * c + t - 1]);
     }
     let response = Response::at::<D>(&point, ground, &found, &u, approach, bounded, passed);
     response.store(isa, mask, &mut block.contact.response, c);

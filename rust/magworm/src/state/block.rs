@@ -79,9 +79,9 @@ pub struct Block<const W: usize> {
     pub v: Rows<W>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].
     pub normal: Rows<W>,
-    /// Tangential impulse of each contact in the last step, along x and in space along z [N·s],
-    /// shape [contacts × (D − 1)].
-    pub tangential: Rows<W>,
+    /// What the spring of each pad holds along x and in space along z [N·s], shape [contacts × (D − 1)]. Friction
+    /// differs from it by what the damper held in the last step.
+    pub pad: Rows<W>,
     /// State of each contact, see [`crate::contact::Mode`], shape [contacts].
     pub mode: Rows<W>,
     /// Stage x, y, in space also z [m] and yaw [rad], then their velocities, shape [2 × axes].
@@ -152,7 +152,7 @@ impl<const W: usize> Block<W> {
             q: zeros(unknowns),
             v: zeros(unknowns),
             normal: zeros(contacts),
-            tangential: zeros((dimensions - 1) * contacts),
+            pad: zeros((dimensions - 1) * contacts),
             mode: zeros(contacts),
             stage: zeros(2 * axes),
             target: zeros(axes + 1),
@@ -189,7 +189,7 @@ impl<const W: usize> Block<W> {
             &self.q,
             &self.v,
             &self.normal,
-            &self.tangential,
+            &self.pad,
             &self.mode,
             &self.stage,
             &self.target,
@@ -209,7 +209,7 @@ impl<const W: usize> Block<W> {
             &mut self.q,
             &mut self.v,
             &mut self.normal,
-            &mut self.tangential,
+            &mut self.pad,
             &mut self.mode,
             &mut self.stage,
             &mut self.target,

@@ -69,11 +69,8 @@ impl<const W: usize> LaneView for Block<W> {
     }
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64> {
         let along = model.dimensions() - 1;
-        let tangential = (0..along).map(|t| self.tangential[along * contact + t][lane]);
-        [self.mode[contact][lane], self.normal[contact][lane]]
-            .into_iter()
-            .chain(tangential)
-            .collect()
+        let pad = (0..along).map(|t| self.pad[along * contact + t][lane]);
+        [self.mode[contact][lane], self.normal[contact][lane]].into_iter().chain(pad).collect()
     }
 }
 
@@ -123,7 +120,8 @@ impl View<'_> {
         let axes = stage_axes(self.model.dimensions());
         (axes..2 * axes).map(|row| self.stage(row)).collect()
     }
-    /// Mode, normal impulse and tangential impulses [N·s] of a contact point in the last step.
+    /// Mode and normal impulse of a contact point in the last step, and what the spring of its pad holds along the
+    /// ground [N·s].
     pub fn contact(&self, contact: usize) -> Vec<f64> {
         self.block.contact(self.model, contact, self.lane)
     }

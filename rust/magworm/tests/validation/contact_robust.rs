@@ -13,9 +13,8 @@ struct Run {
     exhausted: u32,
     /// Steps that ended with a force beyond μ_s N + D_f.
     beyond: u32,
-    /// Greatest work that friction has done since the start [J], and its work at the end.
+    /// Greatest energy that friction gave in a step [J].
     driven_j: f64,
-    work_j: f64,
     fastest: f64,
 }
 
@@ -29,21 +28,37 @@ fn nothing_j(world: &World) -> f64 {
     world.mass_and_centre().0 * 9.81 * 1e-9
 }
 
+/// Friction of a contact point in the last step [N·s], and the impulse that the spring of its pad held before and
+/// after. The damper holds τ/Δt of what the spring lost.
+fn friction(world: &World, contact: usize) -> [f64; 3] {
+    let pad = world.model.program.ground.expect("ground");
+    let block = &world.block;
+    let before = block.contact.warm[2 * contact + 1][0];
+    let after = block.pad[contact][0];
+    [after - pad.damping_time_s / world.model.step_s * (before - after), before, after]
+}
+
 /// Whether some contact holds more than Coulomb allows, |λ_t| ≤ μ_s λ_n + D_f Δt.
 fn beyond_coulomb(world: &World) -> bool {
     let law = world.model.scene.ground.as_ref().expect("ground");
     let (block, dt) = (&world.block, world.model.step_s);
     (0..world.model.contacts.len()).any(|c| {
         let limit = law.static_friction * block.normal[c][0] + law.adhesion_n * dt;
-        block.tangential[c][0].abs() > 1.0001 * limit + nothing(world)
+        friction(world, c)[0].abs() > 1.0001 * limit + nothing(world)
     })
 }
 
-/// Work that friction did in the last step, Σ λ_t u_t [J]. The spring of a pad gives back what it took.
-fn work_of_friction(world: &World) -> f64 {
-    let block = &world.block;
+/// Energy that friction gave in the last step beyond what the springs of the pads had stored [J]:
+/// Σ λ_t u_t + Δ Σ f²/(2 k Δt²).
+fn energy_given_j(world: &World) -> f64 {
+    let pad = world.model.program.ground.expect("ground");
+    let compliance = 1.0 / (pad.stiffness_n_m * world.model.step_s.powi(2));
     (0..world.model.contacts.len())
-        .map(|c| block.tangential[c][0] * block.contact.velocity[2 * c + 1][0])
+        .map(|c| {
+            let [impulse, before, after] = friction(world, c);
+            let work_j = impulse * world.block.contact.velocity[2 * c + 1][0];
+            work_j + 0.5 * compliance * (after * after - before * before)
+        })
         .sum()
 }
 
@@ -55,7 +70,6 @@ fn watch(world: &mut World, steps: u32) -> Run {
         exhausted: 0,
         beyond: 0,
         driven_j: 0.0,
-        work_j: 0.0,
         fastest: 0.0,
     };
     for _ in 0..steps {
@@ -67,8 +81,7 @@ fn watch(world: &mut World, steps: u32) -> Run {
         }
         run.exhausted += u32::from(world.block.counters.trials - before >= most);
         run.beyond += u32::from(beyond_coulomb(world));
-        run.work_j += work_of_friction(world);
-        run.driven_j = run.driven_j.max(run.work_j);
+        run.driven_j = run.driven_j.max(energy_given_j(world));
         run.fastest = run.fastest.max(world.fastest(0)).max(world.fastest(1));
     }
     run
