@@ -90,7 +90,7 @@ def cantilever(field_t: float, direction_deg: float) -> Scene:
             "density_kg_m3": 7500.0,
         },
         "field": {"x_t": -field_t * math.sin(direction), "y_t": field_t * math.cos(direction)},
-        # Backward Euler at a long step: a relaxation, not a motion.
+        # A long step: a relaxation, not a motion.
         "solver.step_s": 0.01,
     }
     return Scene.preset("cantilever").with_values(changes)

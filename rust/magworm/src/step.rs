@@ -40,10 +40,6 @@ fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
 fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     isa.vectorize(
         #[inline(always)]
-        || move_drive::<W, D, I>(isa, model, block),
-    );
-    isa.vectorize(
-        #[inline(always)]
         || elastic::kinematics::<W, D, I>(isa, model, block),
     );
     isa.vectorize(
@@ -54,6 +50,10 @@ fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block:
     isa.vectorize(
         #[inline(always)]
         || commit::<W, D, I>(isa, model, block),
+    );
+    isa.vectorize(
+        #[inline(always)]
+        || move_drive::<W, D, I>(isa, model, block),
     );
     block.counters.steps += 1;
 }
@@ -178,7 +178,7 @@ fn move_drive<const W: usize, const D: usize, I: Isa<W>>(
 ) {
     let Some(drive) = &model.program.drive else { return };
     let axes = stage_axes(D);
-    let time = (isa.load(&block.step_count[0]) + 1.0) * model.step_s;
+    let time = isa.load(&block.step_count[0]) * model.step_s;
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let zero = isa.splat(0.0);
     let (mut place, mut speed) = ([zero; 4], [zero; 4]);

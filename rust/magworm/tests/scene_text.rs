@@ -39,7 +39,7 @@ fn refuses_wrong_types() {
         ("body.magnets", "3.0", "is 3; allowed: a whole number from 1 to 32"),
         ("name", "1979-05-27", "is the date 1979-05-27; allowed: a text"),
         ("reset.random_drive", "1", "is 1; allowed: true or false"),
-        ("solver.integrator", "\"rk4\"", "is \"rk4\"; allowed: implicit, explicit"),
+        ("solver.integrator", "\"rk4\"", "is \"rk4\"; allowed: newmark, euler, explicit"),
         ("drive.reference", "{}", "is a table; allowed: centre, top"),
         (
             "body.removed",

@@ -1,7 +1,7 @@
 //! What a step starts from, before anything is known of its end, and directions along the ground.
 
 use super::law::{Ground, Point, Response};
-use super::{Mode, Vector, Workspace, store_vector};
+use super::{Mode, Vector, Workspace, load_vector, store_vector};
 use crate::lanes::{Isa, Real};
 use crate::state::Block;
 
@@ -45,13 +45,13 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     block: &mut Block<W>,
     c: usize,
     u: &Vector<I::F>,
-    approach: I::F,
+    bias: &Vector<I::F>,
 ) {
     let zero = isa.splat(0.0);
     let (open, slide) = (isa.splat(Mode::OPEN), isa.splat(Mode::SLIDE));
     let before = isa.load(&block.mode[c]);
     let was_closed = !before.eq(open);
-    let closed = was_closed | (u[0] + approach).le(zero);
+    let closed = was_closed | (u[0] + bias[0]).le(zero);
     let along = [u[1], u[2]];
     let speed = length::<I::F, D>(along);
     let slow = speed.le(ground.transition_speed);
@@ -65,11 +65,11 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     }
     let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
     let point = Point { warm, coefficient, bound: zero };
-    let response = assumed::<I::F, D>(&point, ground, along, speed, approach, closed, sticks);
+    let response = assumed::<I::F, D>(&point, ground, along, speed, bias, closed, sticks);
     let everywhere = zero.eq(zero);
     let work = &mut block.contact;
     isa.store(coefficient, &mut work.coefficient[c]);
-    isa.store(approach, &mut work.approach[c]);
+    store_vector::<W, D, I>(isa, everywhere, bias, &mut work.bias, c);
     store_vector::<W, D, I>(isa, everywhere, &warm, &mut work.warm, c);
     response.store(isa, everywhere, &mut work.response, c);
     isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
@@ -92,10 +92,12 @@ pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
     let touching = isa.load(&work.touching[c]).gt(zero);
     let normal = I::F::select(touching, ground.weight, zero);
     let held = if sticks { normal } else { zero };
-    let mut force = [-(normal * isa.load(&work.approach[c])), zero, zero];
+    let bias = load_vector::<W, D, I>(isa, &work.bias, c);
+    let mut force = [-(normal * bias[0]), zero, zero];
     if sticks {
         for k in 1..D {
-            force[k] = I::F::select(touching, isa.load(&work.warm[D * c + k]), zero);
+            let held = isa.load(&work.warm[D * c + k]) - normal * bias[k];
+            force[k] = I::F::select(touching, held, zero);
         }
     }
     let response = Response { force, normal, drag: [zero; 2], along: [held, zero, held] };
@@ -111,14 +113,14 @@ fn assumed<F: Real, const D: usize>(
     ground: &Ground<F>,
     along: [F; 2],
     speed: F,
-    approach: F,
+    bias: &Vector<F>,
     closed: F::Mask,
     sticks: F::Mask,
 ) -> Response<F> {
     let (zero, w) = (speed.splat(0.0), ground.weight);
     let d = direction::<F, D>(along);
     let normal = F::select(closed, w, zero);
-    let pressed = F::select(closed, -(w * approach), zero);
+    let pressed = F::select(closed, -(w * bias[0]), zero);
     let drag = F::select(sticks, zero, point.coefficient * normal);
     let adhesion = ground.friction(zero, point.warm[0]);
     let sliding = F::select(closed, point.coefficient * pressed + adhesion, zero);
@@ -129,8 +131,11 @@ fn assumed<F: Real, const D: usize>(
     let lost = F::select(sticks, zero, viscosity);
     let mut force = [pressed, zero, zero];
     for t in 0..D - 1 {
-        force[1 + t] =
-            F::select(sticks, F::select(closed, point.warm[1 + t], zero), -(sliding * d[t]));
+        force[1 + t] = F::select(
+            sticks,
+            F::select(closed, point.warm[1 + t] - w * bias[1 + t], zero),
+            -(sliding * d[t]),
+        );
     }
     let xx = if D == 2 { stuck - lost } else { stuck - lost * d[0] * d[0] };
     Response {

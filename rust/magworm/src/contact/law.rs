@@ -21,11 +21,11 @@ pub struct Ground<F> {
     pub adhesion: F,
     /// v_d [m/s].
     pub transition_speed: F,
-    /// w = k Δt (Δt + τ) [kg].
+    /// w = k Δt τ [kg], τ at least Δt.
     pub weight: F,
-    /// τ/(Δt + τ), the share of w that is viscous.
+    /// 1 − Δt/τ, the share of w that is viscous.
     pub viscous_share: F,
-    /// Δt + τ [s].
+    /// τ [s].
     pub lead_s: F,
 }
 
@@ -34,6 +34,8 @@ impl<F: Real> Ground<F> {
     #[inline(always)]
     pub fn new(law: &GroundLaw, static_factor: F, dynamic_factor: F, dt: f64) -> Self {
         let one = static_factor.splat(1.0);
+        // The step itself damps like a time Δt: that counts towards τ.
+        let lead_s = law.damping_time_s.max(dt);
         let static_friction = static_factor * law.static_friction;
         Self {
             static_friction,
@@ -41,9 +43,9 @@ impl<F: Real> Ground<F> {
             dynamic_friction: (dynamic_factor * law.dynamic_friction).min(static_friction),
             adhesion: one * (law.adhesion_n * dt),
             transition_speed: one * law.transition_speed_m_s,
-            weight: one * (law.stiffness_n_m * dt * (dt + law.damping_time_s)),
-            viscous_share: one * (law.damping_time_s / (dt + law.damping_time_s)),
-            lead_s: one * (dt + law.damping_time_s),
+            weight: one * (law.stiffness_n_m * dt * lead_s),
+            viscous_share: one * (1.0 - dt / lead_s),
+            lead_s: one * lead_s,
         }
     }
 
@@ -122,7 +124,7 @@ impl<F: Real> Point<F> {
 /// Rows of a stored response.
 pub(super) const RESPONSE: usize = 9;
 
-/// Impulses linear in the velocity without the approach: λ = `force` − C u with
+/// Impulses linear in the velocity without the bias: λ = `force` − C u with
 ///
 /// ```text
 ///     | normal   0    0  |
@@ -145,7 +147,7 @@ impl<F: Real> Response<F> {
         ground: &Ground<F>,
         found: &Impulse<F>,
         u: &Vector<F>,
-        approach: F,
+        bias: &Vector<F>,
         bounded: bool,
         passed: F::Mask,
     ) -> Self {
@@ -172,13 +174,13 @@ impl<F: Real> Response<F> {
             // Exactly 0 where it slides.
             response.along[0] = across - lost;
         }
-        let known = [u[0] - approach, u[1], u[2]];
+        let known = [u[0] - bias[0], u[1] - bias[1], u[2] - bias[2]];
         let back = response.times::<D>(&known);
         for k in 0..D {
             response.force[k] = response.force[k] + back[k];
         }
         for t in 1..D {
-            response.force[t] = F::select(passed, point.warm[t], response.force[t]);
+            response.force[t] = F::select(passed, point.warm[t] - w * bias[t], response.force[t]);
         }
         response
     }

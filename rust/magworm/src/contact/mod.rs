@@ -2,11 +2,11 @@
 //!
 //! Each contact point has a gap φ, a normal velocity u_n and a velocity u_t along the ground (a number in the
 //! plane, a vector in space), all linear in the velocities at the end of the step. Under it lies a *pad*, a spring k
-//! with a damper k τ, so stiff that the whole body's weight presses it in by a four-thousandth of the body's
-//! thickness, and so damped that nothing rebounds:
+//! with a damper k τ, so stiff that the whole body's weight presses it in by a thousandth of the body's
+//! thickness, and damped beyond rebound (τ at least Δt: so much a step damps of itself):
 //!
 //! ```text
-//! λ_n = max(0, −w (u_n + φ/(Δt + τ))),  w = k Δt (Δt + τ)       (above the ground φ/Δt: no damper yet)
+//! λ_n = max(0, −w (u_n + φ/τ)),  w = k Δt τ       (above the ground φ/Δt: no damper yet)
 //! ξ_t = λ⁰ − w u_t,  λ_t = ξ_t cut to the length F(λ_n)
 //! ```
 //!
@@ -14,6 +14,8 @@
 //! the spring remembers. Friction follows the paper: a point that moves no faster than v_d holds up to
 //! F = μ_s λ_n + D_f Δt; beyond that it slides against F = μ_d λ_n + D_f Δt (Coulomb's cone, read from the
 //! augmented impulse ξ as Alart & Curnier 1991 do).
+//!
+//! u is the mean velocity of the point over the step, which moves on an arc: to V + ω × r comes ½ Δt ω × (ω × r).
 //!
 //! Rigid feet on rigid ground have no limit of short steps: with friction as here several motions may follow from
 //! one state, or none (Painlevé). On pads they have, and a solution is found much more often.

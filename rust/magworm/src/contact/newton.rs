@@ -37,8 +37,7 @@ pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
         size = size + right * right * mobility;
     }
     for c in 0..model.contacts.len() {
-        let mut velocity = [zero; 3];
-        velocity[0] = isa.load(&work.approach[c]);
+        let velocity = load_vector::<W, D, I>(isa, &work.bias, c);
         store_vector::<W, D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
     }
     Search::new(size * (TOLERANCE * TOLERANCE)).store(isa, &mut work.search);
@@ -166,7 +165,7 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
     bounded: bool,
 ) {
     let u = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
-    let approach = isa.load(&block.contact.approach[c]);
+    let bias = load_vector::<W, D, I>(isa, &block.contact.bias, c);
     let point = point::<W, D, I>(isa, &block.contact, c);
     let found = point.impulse::<D>(ground, &u, bounded);
     // What slid the other way passed the place where it sticks.
@@ -186,7 +185,7 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
         let held = found.impulse[t] + given;
         store_where(isa, mask, held, &mut block.pad[(D - 1) * c + t - 1]);
     }
-    let response = Response::at::<D>(&point, ground, &found, &u, approach, bounded, passed);
+    let response = Response::at::<D>(&point, ground, &found, &u, &bias, bounded, passed);
     response.store(isa, mask, &mut block.contact.response, c);
 }
 

@@ -2,7 +2,7 @@
 
 use super::guess::first_guess;
 use super::{Ground, Vector};
-use crate::elastic::axes;
+use crate::elastic::{axes, cross};
 use crate::lanes::{Isa, Real};
 use crate::model::{Contact, Model, Sole};
 use crate::state::Block;
@@ -65,7 +65,37 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     let lead_s = I::F::select(inside, ground.lead_s, isa.splat(step_s));
     let approach = (gap / lead_s).max(isa.splat(-RECOVERY_M_S));
     let u = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
-    first_guess::<W, D, I>(isa, ground, block, c, &u, approach);
+    let mut bias = bend::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
+    bias[0] = bias[0] + approach;
+    first_guess::<W, D, I>(isa, ground, block, c, &u, &bias);
+}
+
+/// What the rotation of a body within the step adds to the mean velocity of its point, ½ Δt ω × (ω × r): it
+/// moves on an arc, not along the tangent. Without it a foot that rocks on its toe would creep by ½ (ω Δt)² r a step.
+#[inline(always)]
+fn bend<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    velocities: &[[f64; W]],
+    first: usize,
+    rigid: bool,
+    arm: &[I::F; 3],
+    half_step_s: f64,
+) -> Vector<I::F> {
+    let zero = isa.splat(0.0);
+    if !rigid {
+        return [zero; 3];
+    }
+    if D == 2 {
+        let turn = isa.load(&velocities[first + 2]);
+        let squared = turn * turn * half_step_s;
+        return [-(squared * arm[1]), -(squared * arm[0]), zero];
+    }
+    let mut turn = [zero; 3];
+    for axis in 0..3 {
+        turn[axis] = isa.load(&velocities[first + 3 + axis]);
+    }
+    let bent = cross(&turn, &cross(&turn, arm));
+    [bent[1] * half_step_s, bent[0] * half_step_s, bent[2] * half_step_s]
 }
 
 /// Toe or heel in the plane, given in the axes of its magnet.
@@ -122,7 +152,7 @@ pub(super) fn point_velocity<const W: usize, const D: usize, I: Isa<W>>(
         for axis in 0..3 {
             turn[axis] = isa.load(&velocities[first + 3 + axis]);
         }
-        let moved = crate::elastic::cross(&turn, arm);
+        let moved = cross(&turn, arm);
         for axis in 0..3 {
             velocity[axis] = velocity[axis] + moved[axis];
         }

@@ -10,8 +10,9 @@ use crate::state::Rows;
 pub struct Workspace<const W: usize> {
     /// From a point's body to the point [m], shape [contacts × D].
     pub arm: Rows<W>,
-    /// Normal velocity that a point must reach at least, with its sign changed [m/s], shape [contacts].
-    pub approach: Rows<W>,
+    /// What is known of the velocity that the law of a point sees [m/s]: upwards the gap over the time within
+    /// which it closes, and what rotation bends, shape [contacts × D].
+    pub bias: Rows<W>,
     /// Coefficient of friction in this step, shape [contacts].
     pub coefficient: Rows<W>,
     /// Impulses of the step before, upwards and along the ground: there λ⁰ [N·s], shape [contacts × D].
@@ -24,7 +25,7 @@ pub struct Workspace<const W: usize> {
     pub touching: Rows<W>,
     /// Direction in which friction pushed a point when it was linearised last, shape [contacts × 2].
     pub slip: Rows<W>,
-    /// Velocities of the points, upwards with the approach [m/s], shape [contacts × D].
+    /// Velocities of the points, with the bias [m/s], shape [contacts × D].
     pub velocity: Rows<W>,
     /// How they change along the direction of search, shape [contacts × D].
     pub velocity_change: Rows<W>,
@@ -58,7 +59,7 @@ impl<const W: usize> Workspace<W> {
         let (dimensions, kept) = (model.dimensions(), model.system.kept());
         Self {
             arm: of_contacts(dimensions),
-            approach: of_contacts(1),
+            bias: of_contacts(dimensions),
             coefficient: of_contacts(1),
             warm: of_contacts(dimensions),
             bound: of_contacts(1),

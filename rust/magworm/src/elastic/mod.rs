@@ -4,10 +4,8 @@
 //! damping replaces s by s + τ ṡ in its force, so rigid motion is undamped. Its generalised force is
 //! −k (s + τ g·v) g.
 //!
-//! *Implicit*: with s at the end of the step, s + Δt g·v⁺, the impulse is
-//! −Δt k s g − Δt (Δt + τ) k g gᵀ v⁺: one number on the right, a rank-one matrix on the left.
-//! *Explicit*: −Δt k (s + τ g·v) g, all on the right.
-
+//! In all schemes the impulse of a step is −Δt k (s + a g·v + b g·v⁺) g: a number on the right, and where b is not 0 a
+//! rank-one matrix on the left. [`Scheme`] says what a and b are.
 //!
 //! Kernels are generic over the dimension D: 2 in the plane, 3 in space. In the plane a node bends in one
 //! way; in space in two, and it twists.
@@ -26,20 +24,59 @@ pub use stretch::assemble as stretch;
 pub use twist::assemble as bend_and_twist;
 pub use vector::{cross, dot};
 
-use crate::lanes::Isa;
+use crate::lanes::{Isa, Real};
 use crate::model::{MOST, Spin, Stencil};
+use crate::scene::Integrator;
 
 /// How the impulse of a spring enters the equations of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Scheme<F> {
     /// Stiffness factor of each lane.
     pub stiffness: F,
-    /// Retardation time τ of each lane [s].
-    pub damping_s: F,
     /// Time step [s].
     pub dt: f64,
-    /// Whether strain is taken at the end of the step.
-    pub implicit: bool,
+    /// a: what the strain rate at the start of the step counts for [s].
+    pub before_s: F,
+    /// b: what the one at its end counts for [s].
+    pub after_s: F,
+    /// a and b of the geometric stiffness, which has no retardation [s]; b = 0 in the explicit scheme.
+    pub geometric_s: [f64; 2],
+}
+
+/// Newmark's β.
+const BETA: f64 = 0.5;
+/// Least retardation time under Newmark's scheme, in steps: without any, rods in tension whose transverse vibration is far
+/// faster than the step do not come to rest.
+const STEADYING: f64 = 0.1;
+
+impl<F: Real> Scheme<F> {
+    /// The scheme of an integrator, of a retardation time τ and a step Δt.
+    ///
+    /// - *Newmark*, β = γ = ½, in its two-step form: the strain at the start of the step, which stands half-way between two
+    ///   velocities, and β Δt² of its acceleration, hence a = −β Δt, b = τ + β Δt with τ ≥ Δt/10. Of second
+    ///   order but for damping, whose rate is taken at v⁺; stable for any stiffness.
+    /// - *Backward Euler*: strain at the end of the step, a = 0, b = τ + Δt. Damps like a retardation time Δt.
+    /// - *Explicit*: a = τ, b = 0.
+    #[inline(always)]
+    pub fn new(integrator: Integrator, stiffness: F, damping_s: F, dt: f64) -> Self {
+        let zero = stiffness.splat(0.0);
+        let (least_s, ahead_s) = (zero + STEADYING * dt, BETA * dt);
+        let (before_s, after_s, geometric_s) = match integrator {
+            Integrator::Newmark => (
+                zero - ahead_s,
+                damping_s.max(least_s) + ahead_s,
+                [-ahead_s, STEADYING * dt + ahead_s],
+            ),
+            Integrator::Euler => (zero, damping_s + dt, [0.0, dt]),
+            Integrator::Explicit => (damping_s, zero, [0.0; 2]),
+        };
+        Self { stiffness, dt, before_s, after_s, geometric_s }
+    }
+
+    /// Whether strain rates at the end of the step count.
+    pub fn implicit(&self) -> bool {
+        self.geometric_s[1] > 0.0
+    }
 }
 
 /// Node positions and unknowns, for gradients over rigid nodes.
@@ -244,27 +281,22 @@ impl<F, const K: usize> Springs<'_, F, K> {
         equations: &mut Equations<'_, W>,
         scheme: Scheme<F>,
     ) where
-        F: crate::lanes::Real<Mask = I::M>,
+        F: Real<Mask = I::M>,
     {
         let dt = scheme.dt;
-        if scheme.implicit {
-            let factor = scheme.damping_s + dt;
+        if scheme.implicit() {
             let mut weights = self.stiffness;
             let mut gradients = [&self.gradients[0][..]; K];
             for k in 0..K {
-                weights[k] = factor * self.stiffness[k] * dt;
+                weights[k] = scheme.after_s * self.stiffness[k] * dt;
                 gradients[k] = &self.gradients[k][..];
             }
             add_rank(isa, equations.matrix, self.stencil, gradients, weights);
         }
         for k in 0..K {
             let gradient = self.gradients[k];
-            let force = if scheme.implicit {
-                self.strains[k] * self.stiffness[k]
-            } else {
-                let rate = rate(isa, equations.v, self.stencil, gradient);
-                (self.strains[k] + rate * scheme.damping_s) * self.stiffness[k]
-            };
+            let rate = rate(isa, equations.v, self.stencil, gradient);
+            let force = (self.strains[k] + rate * scheme.before_s) * self.stiffness[k];
             add_scaled(isa, equations.right, self.stencil, gradient, -(force * dt));
         }
     }

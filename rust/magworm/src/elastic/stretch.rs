@@ -2,9 +2,9 @@
 //!
 //! Gradient of |e| over the two nodes: (−t, t). In tension the force also turns with the element;
 //! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ of each normal n, one in the plane and two
-//! in space, and is taken along implicitly. In compression it would be negative and is left out of the matrix.
+//! in space, and enters the step as springs do. In compression it would be negative and is left out of the matrix.
 
-use super::{Equations, MOST, Places, Scheme, Springs, add_rank_one, gather};
+use super::{Equations, MOST, Places, Scheme, Springs, add_rank_one, add_scaled, gather, rate};
 use crate::lanes::{Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
@@ -40,11 +40,12 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
             stiffness: [stiffness],
         };
         springs.add(isa, &mut equations, scheme);
-        if !scheme.implicit {
+        if !scheme.implicit() {
             continue;
         }
         let tension = strain.max(isa.splat(0.0)) * stiffness;
-        let weight = tension * isa.load(&inverse_length[e]) * (scheme.dt * scheme.dt);
+        let force = tension * isa.load(&inverse_length[e]) * scheme.dt;
+        let [before_s, after_s] = scheme.geometric_s;
         let mut n = t;
         for normal in 1..D {
             if D == 2 {
@@ -57,7 +58,9 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
                 }
             }
             gather::<W, D, I, 2>(isa, places, &spring.stencil, &opposed(&n), &mut gradient);
-            add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, weight);
+            add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, force * after_s);
+            let turned = rate(isa, equations.v, &spring.stencil, &gradient) * before_s;
+            add_scaled(isa, equations.right, &spring.stencil, &gradient, -(force * turned));
         }
     }
 }

@@ -1,9 +1,14 @@
-//! Linearly implicit (backward) Euler in reduced coordinates.
+//! Newmark's scheme and backward Euler, linearly implicit in reduced coordinates.
 //!
-//! (M + Δt (Δt + τ) Σ k g gᵀ) v⁺ = M v + Δt (F − Σ k s g), with strains s and gradients g at the
-//! start of the step: one Newton iteration of backward Euler with the Gauss–Newton stiffness. First
-//! order; damps what oscillates faster than the step resolves. Magnetic and gravitational forces
-//! are those at the start of the step with the drive at its end.
+//! ```text
+//! (M + Δt b Σ k g gᵀ) v⁺ = M v + Δt (F − Σ k (s + a g·v) g),   q⁺ = q + Δt v⁺
+//! ```
+//!
+//! with strains s, gradients g and forces F at q, and a and b as [`crate::elastic::Scheme`] says. Velocities stand half a
+//! step before positions (leapfrog, of which Newmark's scheme with β = 0 is another name), so forces at the
+//! start of the step are of second order. Newmark's β = ½ adds stiffness times the change of velocity: stable for any
+//! stiffness, and since that change is itself of order Δt, the Gauss–Newton stiffness is good enough. Backward Euler
+//! takes the strain at the end instead, is of first order, and damps what oscillates faster than the step resolves.
 
 use super::springs;
 use crate::elastic::Scheme;

@@ -1,7 +1,7 @@
-//! Time integration: the equations of one step, A v⁺ = b, for two schemes behind one shape.
+//! Time integration: the equations of one step, A v⁺ = b, for three schemes behind one shape.
 //!
-//! Both are solved by the same banded factorisation and the same contact solve; they differ in their
-//! unknowns and in what goes into A.
+//! All are solved by the same banded factorisation and the same contact solve; they differ in their
+//! unknowns and in what goes into A and b.
 
 mod explicit;
 mod implicit;
@@ -29,7 +29,9 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     loads::magnets::<W, D, I>(isa, model, block);
     let scheme = scheme(isa, model, block);
     match model.scene.solver.integrator {
-        Integrator::Implicit => implicit::assemble::<W, D, I>(isa, model, block, scheme),
+        Integrator::Newmark | Integrator::Euler => {
+            implicit::assemble::<W, D, I>(isa, model, block, scheme)
+        }
         Integrator::Explicit => explicit::assemble::<W, D, I>(isa, model, block, scheme),
     }
 }
@@ -72,12 +74,9 @@ fn rotary_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut 
 #[inline(always)]
 fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) -> Scheme<I::F> {
     let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
-    Scheme {
-        stiffness: factor(Parameter::Stiffness),
-        damping_s: factor(Parameter::Damping) * model.scene.material.damping_time_s,
-        dt: model.step_s,
-        implicit: model.scene.solver.integrator == Integrator::Implicit,
-    }
+    let damping_s = factor(Parameter::Damping) * model.scene.material.damping_time_s;
+    let integrator = model.scene.solver.integrator;
+    Scheme::new(integrator, factor(Parameter::Stiffness), damping_s, model.step_s)
 }
 
 /// Adds the springs of the rod.

@@ -13,7 +13,8 @@ impl Model {
             let _ = writeln!(text, "{name:<14}{words}");
         };
         let scheme = match self.scene.solver.integrator {
-            Integrator::Implicit => "implicit Euler, magnets eliminated",
+            Integrator::Newmark => "Newmark, linearly implicit, magnets eliminated",
+            Integrator::Euler => "backward Euler, linearly implicit, magnets eliminated",
             Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
         };
         line("integrator", format!("{scheme}, step {} s", self.step_s));

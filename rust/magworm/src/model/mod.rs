@@ -144,7 +144,7 @@ impl Model {
         scene.validate()?;
         let mesh = Mesh::new(scene);
         let unknowns = match scene.solver.integrator {
-            Integrator::Implicit => Unknowns::Reduced,
+            Integrator::Newmark | Integrator::Euler => Unknowns::Reduced,
             Integrator::Explicit => Unknowns::Multipliers,
         };
         let coordinates = Coordinates::new(&mesh, unknowns, scene.dimensions);
@@ -233,7 +233,7 @@ fn gravity(scene: &Scene) -> [f64; 3] {
 }
 
 /// Share of the body's thickness by which the pad of a contact point gives under the weight of the whole body.
-const GIVE: f64 = 2.5e-4;
+const GIVE: f64 = 1e-3;
 /// Greatest weight of a contact point in the equations of a step, in masses of the body: beyond it a long step would find
 /// no solution.
 const HEAVIEST: f64 = 100.0;
@@ -246,7 +246,7 @@ fn ground_law(ground: &Ground, scene: &Scene, mesh: &Mesh) -> GroundLaw {
     let stiffness_n_m = mass_kg * 9.81 / give_m;
     let damping_time_s = 4.0 * (mass_kg / stiffness_n_m).sqrt();
     let step_s = scene.solver.step_s;
-    let stiffest_n_m = HEAVIEST * mass_kg / (step_s * (step_s + damping_time_s));
+    let stiffest_n_m = HEAVIEST * mass_kg / (step_s * damping_time_s.max(step_s));
     // A foot has a toe and a heel in the plane, two of each in space.
     let share = if scene.dimensions == 3 { 0.5 } else { 1.0 };
     GroundLaw {

@@ -210,7 +210,7 @@ static START: Table = Table {
 
 static SOLVER: Table = Table {
     fields: &[
-        optional("integrator", Kind::Choice(&["implicit", "explicit"])),
+        optional("integrator", Kind::Choice(&["newmark", "euler", "explicit"])),
         optional("step_s", SHORT),
         optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
         optional("quadrature_order", whole(1, 10)),

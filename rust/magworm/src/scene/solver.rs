@@ -23,7 +23,7 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         Self {
-            integrator: Integrator::Implicit,
+            integrator: Integrator::Newmark,
             step_s: 2e-3,
             magnet_model: MagnetModel::Cuboid,
             quadrature_order: 3,
@@ -37,8 +37,11 @@ impl Default for Solver {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
-    /// Linearly implicit Euler with a velocity-level contact solve; rigid magnets eliminated.
-    Implicit,
+    /// Newmark's, linearly implicit, of second order; rigid magnets eliminated.
+    Newmark,
+    /// Backward Euler, linearly implicit, of first order; damps like a retardation time of one step. Rigid magnets
+    /// eliminated.
+    Euler,
     /// The paper's: explicit forces, rigid magnets held by Lagrange multipliers.
     Explicit,
 }

@@ -97,8 +97,8 @@ fn start(dice: &mut Dice, on_ground: bool, dimensions: usize) -> Start {
 }
 
 fn solver(dice: &mut Dice) -> Solver {
-    let integrator = dice.one_of(&[Integrator::Implicit, Integrator::Explicit]);
-    let shortest_s = if integrator == Integrator::Implicit { 1e-5 } else { 1e-7 };
+    let integrator = dice.one_of(&[Integrator::Newmark, Integrator::Euler, Integrator::Explicit]);
+    let shortest_s = if integrator == Integrator::Explicit { 1e-7 } else { 1e-5 };
     Solver {
         integrator,
         step_s: dice.decades(shortest_s, 0.05),

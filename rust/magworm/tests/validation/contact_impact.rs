@@ -18,8 +18,8 @@ fn upward(world: &World) -> f64 {
     (0..=world.last()).map(|n| world.node_velocity(n)[1]).fold(0.0, f64::max)
 }
 
-/// A block dropped flat from 10 mm lands without rebound: no node moves up by more than 1e-6 m/s and the kinetic
-/// energy is gone (1e-12 of what it had). The penalty leaves 1e-8 of the landing speed.
+/// A block dropped flat from 10 mm lands without rebound: no node moves up by more than a fiftieth of the landing speed,
+/// what pads give back, and the kinetic energy is gone (1e-12 of what it had).
 #[test]
 fn validates_inelastic_landing() {
     let mut case = Case::new("inelastic_landing", "Landing without rebound")
@@ -29,7 +29,7 @@ fn validates_inelastic_landing() {
         .note(
             "Blocks as above, dropped flat from 10 mm, for 0.5 s. Rebound is the fastest upward \
             velocity of any node: the pads under the points give by micrometres and return at most \
-            a hundredth of the 0.44 m/s.",
+            a fiftieth of the 0.44 m/s.",
         );
     let (mut rebounds, mut remaining) = (Vec::new(), Vec::new());
     for (name, body) in crate::contact_block::blocks() {
@@ -48,7 +48,7 @@ fn validates_inelastic_landing() {
         rebounds.push(rebound);
         remaining.push(left);
     }
-    case.spread("rebound, all blocks", "m/s", &rebounds, 4.4e-3);
+    case.spread("rebound, all blocks", "m/s", &rebounds, 8.8e-3);
     case.spread("kinetic energy left, all blocks", "of its greatest value", &remaining, 1e-12);
     case.finish();
 }
@@ -126,11 +126,13 @@ fn validates_recovery_from_inside_the_ground() {
                 fastest = fastest.max(upward(&world));
                 kinetic = kinetic.max(world.kinetic());
             }
-            let allowed = 0.5 * world.mass_and_centre().0 * 0.01;
-            // Gap at the start of the last step over Δt + τ; only deep ones are cut off at the recovery speed.
-            let pad = world.model.program.ground.expect("ground").damping_time_s;
-            let lead_s = world.model.step_s + pad;
-            let gaps = world.block.contact.approach.iter().map(|row| row[0] * lead_s);
+            let mass_kg = world.mass_and_centre().0;
+            let allowed = 0.5 * mass_kg * 0.01;
+            let pad = world.model.program.ground.expect("ground");
+            let give = mass_kg * 9.81 / pad.stiffness_n_m;
+            // Gap at the start of the last step over τ; only deep ones are cut off at the recovery speed.
+            let lead_s = pad.damping_time_s.max(world.model.step_s);
+            let gaps = world.block.contact.bias.iter().step_by(2).map(|row| row[0] * lead_s);
             let lowest = gaps.fold(f64::INFINITY, f64::min);
             println!(
                 "inside the ground by {depth} m, {base}: fastest {fastest:.3} m/s, kinetic {:.2} of allowed, left at {lowest:.1e} m, {:.1e} m/s",
@@ -139,7 +141,7 @@ fn validates_recovery_from_inside_the_ground() {
             );
             if fastest > 0.15
                 || kinetic > 1.01 * allowed
-                || lowest < -1e-6
+                || lowest < -give
                 || world.fastest(1) > 1e-6
             {
                 failures.push((base, depth));

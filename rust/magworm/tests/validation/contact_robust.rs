@@ -29,13 +29,14 @@ fn nothing_j(world: &World) -> f64 {
 }
 
 /// Friction of a contact point in the last step [N·s], and the impulse that the spring of its pad held before and
-/// after. The damper holds τ/Δt of what the spring lost.
+/// after. The damper holds τ/Δt − 1 of what the spring lost.
 fn friction(world: &World, contact: usize) -> [f64; 3] {
     let pad = world.model.program.ground.expect("ground");
     let block = &world.block;
     let before = block.contact.warm[2 * contact + 1][0];
     let after = block.pad[contact][0];
-    [after - pad.damping_time_s / world.model.step_s * (before - after), before, after]
+    let lead_s = pad.damping_time_s.max(world.model.step_s);
+    [after - (lead_s / world.model.step_s - 1.0) * (before - after), before, after]
 }
 
 /// Whether some contact holds more than Coulomb allows, |λ_t| ≤ μ_s λ_n + D_f Δt.

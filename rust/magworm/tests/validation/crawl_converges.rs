@@ -31,25 +31,24 @@ fn add_curves(figure: &mut Figure, at: &[f64], found: &[[f64; 4]]) {
     }
 }
 
-/// The stride at the preset's step is within 1 % of that at 0.1 ms.
+/// The mean stride at the preset's step is within half a per cent of that at 0.1 ms, that of a single pass within 2 %.
 #[test]
 fn validates_stride_converges_in_the_step() {
     let mut case = Case::new("stride_converges_in_the_step", "Robot: step")
         .equation(
-            "Linearly implicit Euler is of first order; stick and slip make the stride rugged",
+            "Newmark's scheme is of second order; slips that begin and end within a step are of first",
         )
         .source("The simulator at a step of 0.1 ms")
         .scene("paper-3", &[("drive.motion", PASS), ("solver.step_s", "…")])
         .note(&format!(
-            "{MEASURED} The band holds for a single pass at the preset's step, 2 ms, \
-            as the presets promise; the mean stride, which does not depend on where a slip falls, \
-            tells the error of the step better."
+            "{MEASURED} The mean stride, which does not depend on where a slip falls, tells the error \
+            of the step; a single pass may differ by a slip."
         ));
     let fine = all_four(&[("solver.step_s", "1e-4")]);
     let steps = ["4e-3", "2e-3", "1e-3", "5e-4"];
     let found = steps.map(|step| errors(all_four(&[("solver.step_s", step)]), fine));
-    case.relative("stride, preset's step", "mm", [pass(&[]).1, fine[2]].map(|m| m * 1e3), 0.01);
-    case.tell("difference of the mean stride, preset's step", "", found[1][3]);
+    case.relative("stride, preset's step", "mm", [pass(&[]).1, fine[2]].map(|m| m * 1e3), 0.02);
+    case.inside("difference of the mean stride, preset's step", "", found[1][3], -5e-3..=5e-3);
     let rows = steps.iter().zip(found).map(|(step, errors)| row(step, errors)).collect();
     case.table(
         "Difference from Δt = 0.1 ms:",

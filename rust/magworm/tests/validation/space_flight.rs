@@ -100,7 +100,7 @@ fn validates_space_momentum_in_free_flight() {
     }
     let steps = [("1e-3", 200), ("5e-4", 400), ("2.5e-4", 800), ("1.25e-4", 1600)];
     let lost = steps.map(|(step, count)| {
-        let [linear, _, bare] = changes(&mut flying("'implicit'", step, "2e-3"), count);
+        let [linear, _, bare] = changes(&mut flying("'newmark'", step, "2e-3"), count);
         case.at_most(format!("change of momentum, implicit, Δt = {step} s"), "", linear, 1e-12);
         bare
     });

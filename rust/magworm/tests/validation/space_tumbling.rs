@@ -74,7 +74,7 @@ fn validates_space_tumbling_of_a_magnet() {
     let mut figure =
         Figure::new("Tumbling: error after 0.6 s", "step [s]", "error [rad]", Axes::LogLog)
             .slope(1.0);
-    for integrator in ["'implicit'", "'explicit'"] {
+    for integrator in ["'newmark'", "'explicit'"] {
         let scheme = integrator.trim_matches('\'');
         let steps = [1e-3, 5e-4, 2.5e-4, 1.25e-4];
         let mut gained = Vec::new();

@@ -16,7 +16,7 @@ pub fn modulus_pa(alpha: f64) -> f64 {
     1000.0 * 9.81 * LENGTH_M.powi(3) * 12.0 / (THICKNESS_M.powi(2) * alpha)
 }
 
-/// Backward Euler at a long step and a long retardation time: a relaxation, not a motion.
+/// A long step and a long retardation time: a relaxation, not a motion.
 pub const RELAXED: [(&str, &str); 3] =
     [("body.clamp", "'head'"), ("material.damping_time_s", "0.02"), ("solver.step_s", "0.01")];
 

@@ -245,7 +245,7 @@ fn validates_pitchfork() {
                 format!("|θ|, c = {load}: stays straight"),
                 "°",
                 theta.abs().to_degrees(),
-                1e-6,
+                1e-5,
             );
         } else {
             let exact = buckled(load);

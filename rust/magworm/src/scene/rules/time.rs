@@ -5,7 +5,7 @@ use super::super::schema::quantity;
 use super::super::{Integrator, Parameter, Scene};
 use super::require;
 
-/// Shortest step of the implicit scheme [s]: below it the inertia swamps the elastic terms.
+/// Shortest step of the implicit schemes [s]: below it the inertia swamps the elastic terms.
 const SHORTEST_IMPLICIT_STEP_S: f64 = 1e-5;
 /// Most steps that one period may hold; beyond it "a whole number" drowns in rounding.
 const MOST_STEPS: f64 = 1e8;
@@ -14,12 +14,12 @@ const WHOLE: f64 = 1e-9;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     let (step_s, control) = (scene.solver.step_s, &scene.control);
-    let implicit = scene.solver.integrator == Integrator::Implicit;
+    let implicit = scene.solver.integrator != Integrator::Explicit;
     require(
         !implicit || step_s >= SHORTEST_IMPLICIT_STEP_S,
         "solver.step_s",
         quantity(step_s, "s"),
-        || format!("{} or more for implicit", quantity(SHORTEST_IMPLICIT_STEP_S, "s")),
+        || format!("{} or more for newmark and euler", quantity(SHORTEST_IMPLICIT_STEP_S, "s")),
     )?;
     whole_number("control.step_s", control.step_s, "solver.step_s", step_s)?;
     whole_number("control.episode_s", control.episode_s, "control.step_s", control.step_s)?;
