@@ -13,7 +13,7 @@
 //! with λ⁰ the impulse of the pad's spring along the ground at the start. A point that sticks stays where it is, as
 //! the spring remembers. Friction follows the paper: a point that moves no faster than v_d holds up to
 //! F = μ_s λ_n + D_f Δt; beyond that it slides against F = μ_d λ_n + D_f Δt (Coulomb's cone, read from the
-//! augmented impulse ξ as Alart & Curnier 1991 do).
+//! augmented impulse ξ as Alart & Curnier 1991 do). One that passes v_d within a step has the mean coefficient.
 //!
 //! u is the mean velocity of the point over the step, which moves on an arc: to V + ω × r comes ½ Δt ω × (ω × r).
 //!
@@ -28,6 +28,7 @@ mod bounded;
 mod guess;
 mod law;
 mod newton;
+mod onset;
 mod points;
 mod search;
 mod solve;

@@ -10,6 +10,7 @@ use super::bounded::{bound_by_last, relax};
 use super::guess::restart;
 use super::law::Ground;
 use super::newton::{attempt, start, turn};
+use super::onset::weaken;
 use super::search::Search;
 use super::system::solve_linearised;
 use crate::lanes::{Isa, Mask, Real};
@@ -28,9 +29,31 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
         #[inline(always)]
         || start::<W, D, I>(isa, model, block),
     );
-    let trials = model.scene.solver.contact_iterations.div_ceil(PHASES.len());
-    let mut left = running;
-    for phase in PHASES {
+    let left = settle::<W, D, I>(isa, model, ground, block, running, &PHASES);
+    let weaker = isa.vectorize(
+        #[inline(always)]
+        || weaken::<W, D, I>(isa, model, ground, block, running & !left),
+    );
+    if weaker.any() {
+        settle::<W, D, I>(isa, model, ground, block, weaker, &AGAIN);
+    }
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.next[unknown] = block.contact.known[row];
+    }
+}
+
+/// Goes through phases in the lanes of a mask; those for which none found a solution.
+fn settle<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    mask: I::M,
+    phases: &[Phase],
+) -> I::M {
+    let trials = model.scene.solver.contact_iterations.div_ceil(PHASES.len() + AGAIN.len());
+    let mut left = mask;
+    for &phase in phases {
         begin::<W, D, I>(isa, model, ground, block, left, phase);
         let still = iterate::<W, D, I>(isa, model, ground, block, left, phase.friction, trials);
         if phase.friction != Friction::Lagged {
@@ -40,9 +63,7 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
             break;
         }
     }
-    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.next[unknown] = block.contact.known[row];
-    }
+    left
 }
 
 /// Where an iteration starts.
@@ -84,6 +105,12 @@ const PHASES: [Phase; 6] = [
     Phase { from: From::Here, friction: Friction::Coulomb },
     Phase { from: From::Stick, friction: Friction::Coulomb },
     Phase { from: From::Slide, friction: Friction::Coulomb },
+    Phase { from: From::Here, friction: Friction::Settled },
+];
+
+/// The iterations that follow where static friction gave way within the step.
+const AGAIN: [Phase; 2] = [
+    Phase { from: From::Here, friction: Friction::Coulomb },
     Phase { from: From::Here, friction: Friction::Settled },
 ];
 

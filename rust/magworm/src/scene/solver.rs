@@ -27,7 +27,7 @@ impl Default for Solver {
             step_s: 2e-3,
             magnet_model: MagnetModel::Cuboid,
             quadrature_order: 3,
-            contact_iterations: 80,
+            contact_iterations: 120,
             curvature: Curvature::Angle,
         }
     }
