@@ -65,7 +65,7 @@ lint: lint-rust lint-python  ## formatting, clippy, ruff, mypy, stubs
 bench: install-test  ## time of a wrench, a step, and the throughput of environments
 	cargo bench --package magworm
 	mkdir -p runs/bench
-	$(VENV_PYTHON) studies/throughput.py --out runs/bench/throughput.json
+	$(VENV_PYTHON) -m studies.throughput --out runs/bench/throughput.json
 
 wheel: $(VENV)/.made  ## release wheel in dist/
 	rm -f dist/*.whl
