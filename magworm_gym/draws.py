@@ -1,7 +1,11 @@
 """Random numbers that depend on (seed, episode, place in the sequence) alone, as the simulator's do."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
+
+from magworm_gym.arguments import SEED_LIMIT
 
 # Keeps what a task draws apart from what the simulator draws for the same seed and episode.
 STREAM = np.uint64(0x7A5B_1C3D_9E8F_2041)
@@ -19,6 +23,34 @@ def uniform(seeds: NDArray[np.int64], episodes: NDArray[np.int64], count: int) -
     places = np.arange(1, count + 1, dtype=np.uint64) * PER_DRAW
     bits = _mix(keys[:, None] + places) >> np.uint64(11)
     return bits.astype(np.float64) / 2.0**53
+
+
+def next_episodes(
+    seeds: NDArray[np.int64],
+    episodes: NDArray[np.int64],
+    given: Sequence[int | None],
+    mask: NDArray[np.bool_],
+    generator: np.random.Generator,
+) -> NDArray[np.int64]:
+    """Takes the seeds given to the environments of a mask; returns the number of their next episode (N,).
+
+    A given seed starts at episode 0; without one an environment goes on with its own, or draws its first.
+
+    Args:
+        seeds: Seed of each environment (N,), written to.
+        episodes: Number of each one's last episode (N,), -1 before the first.
+        given: Seed or None for each.
+        mask: The environments that are reset (N,).
+        generator: Draws first seeds.
+    """
+    following = episodes + 1
+    for i in np.flatnonzero(mask).tolist():
+        seed = given[i]
+        if seed is not None:
+            seeds[i], following[i] = seed, 0
+        elif following[i] == 0:
+            seeds[i] = generator.integers(SEED_LIMIT)
+    return following
 
 
 def _mix(z: NDArray[np.uint64]) -> NDArray[np.uint64]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from magworm_gym._magworm import Batch
     from magworm_gym.tasks import GoalOption
 
 START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
@@ -162,3 +163,26 @@ def _factors(value: Any, num_envs: int, names: Sequence[str]) -> dict[str, NDArr
         name: _numbers(f'options["parameters"]["{name}"]', factor, num_envs)
         for name, factor in fields.items()
     }
+
+
+def equip(batch: Batch, request: ResetOptions) -> None:
+    """Gives the environments of a reset their robots; all or none.
+
+    Raises:
+        ValueError: A robot that cannot be simulated; nothing is changed then.
+    """
+    mask, scene = request.mask, batch.scene
+    before = {name: batch.parameter(name) for name in batch.parameter_names}
+    present = np.ones(scene.magnets, np.bool_)
+    present[list(scene.removed)] = False
+    wanted = np.where(
+        mask[:, None], present if request.present is None else request.present, batch.magnets_present()
+    )
+    try:
+        for name, factors in before.items():
+            batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))
+        batch.set_magnets_present(wanted)
+    except ValueError:
+        for name, factors in before.items():
+            batch.set_parameter(name, factors)
+        raise

@@ -16,11 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym import snapshot
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
+from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
 from magworm_gym.drawing import Drawing, Frame
-from magworm_gym.draws import uniform
+from magworm_gym.draws import next_episodes, uniform
 from magworm_gym.infos import Flags, Infos, add, reasons, rows
-from magworm_gym.reset_options import ResetOptions, read_options, start_limits
+from magworm_gym.reset_options import equip, read_options, start_limits
 from magworm_gym.scene import load_scene
 from magworm_gym.spaces import AnyPart, box, layout
 from magworm_gym.tasks import Task, task_named
@@ -203,12 +203,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             dimensions=scene.dimensions,
             goal_option=self._task.goal_option,
         )
-        self._equip(request)
+        equip(self._batch, request)
         if isinstance(seed, (int, np.integer)):
             super().reset(seed=int(seed))
         self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
         self._goals[request.mask] = np.nan if request.goal is None else request.goal[request.mask]
-        self._start_episodes(request.mask, self._draw_seeds(seeds, request.mask))
+        episodes = next_episodes(self._seeds, self._episodes, seeds, request.mask, self.np_random)
+        self._start_episodes(request.mask, episodes)
         infos: Infos = {}
         self._add_reset_infos(infos, request.mask)
         self._show()
@@ -334,35 +335,6 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             "random": np.array(json.dumps(self.np_random.bit_generator.state)),
             "autoreset": np.array(self._autoreset.value),
         }
-
-    def _equip(self, request: ResetOptions) -> None:
-        """Gives the environments of a reset their robots; all or none."""
-        mask, batch = request.mask, self._batch
-        before = {name: batch.parameter(name) for name in batch.parameter_names}
-        present = np.ones(self.scene.magnets, np.bool_)
-        present[list(self.scene.removed)] = False
-        wanted = np.where(
-            mask[:, None], present if request.present is None else request.present, batch.magnets_present()
-        )
-        try:
-            for name, factors in before.items():
-                batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))
-            batch.set_magnets_present(wanted)
-        except ValueError:
-            for name, factors in before.items():
-                batch.set_parameter(name, factors)
-            raise
-
-    def _draw_seeds(self, seeds: Sequence[int | None], mask: Flags) -> NDArray[np.int64]:
-        """Takes the seeds given to the environments of mask; returns the number of their next episode."""
-        episodes = self._episodes + 1
-        for i in np.flatnonzero(mask).tolist():
-            given = seeds[i]
-            if given is not None:
-                self._seeds[i], episodes[i] = given, 0
-            elif episodes[i] == 0:
-                self._seeds[i] = self.np_random.integers(SEED_LIMIT)
-        return episodes
 
     def _start_episodes(self, mask: Flags, episodes: NDArray[np.int64]) -> None:
         """Resets the simulation of the environments of mask, to their episodes (N,)."""
