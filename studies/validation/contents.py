@@ -64,6 +64,7 @@ SECTIONS = (
             "stopping_distance": "closed form",
             "axial_friction": "closed form, published test",
             "inelastic_landing": "closed form",
+            "foot_rocks_on_its_edge": "closed form",
             "impact_takes_energy": "second law",
             "weight_at_rest": "statics",
         },

@@ -11,6 +11,7 @@ mod world;
 mod contact_block;
 mod contact_impact;
 mod contact_robust;
+mod contact_rock;
 mod contact_slide;
 mod contact_weight;
 mod crawl;
