@@ -65,7 +65,7 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     let lead_s = I::F::select(inside, ground.lead_s, isa.splat(step_s));
     let approach = (gap / lead_s).max(isa.splat(-RECOVERY_M_S));
     let u = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
-    let mut bias = bend::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
+    let mut bias = arc::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
     bias[0] = bias[0] + approach;
     first_guess::<W, D, I>(isa, ground, block, c, &u, &bias);
 }
@@ -73,7 +73,7 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
 /// What the rotation of a body within the step adds to the mean velocity of its point, ½ Δt ω × (ω × r): it
 /// moves on an arc, not along the tangent. Without it a foot that rocks on its toe would creep by ½ (ω Δt)² r a step.
 #[inline(always)]
-fn bend<const W: usize, const D: usize, I: Isa<W>>(
+fn arc<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     velocities: &[[f64; W]],
     first: usize,
