@@ -33,7 +33,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 demo: install-train  ## train a controller, compare it with the belts, print the table last
 	$(VENV_PYTHON) training/evaluate.py --budget $(BUDGET) --out $(OUT)
 
-turn: install-train  ## train turning, compare it with belts and two magnets, ten minutes
+turn: install-train  ## train turning, compare it with belts and two magnets, a quarter of an hour
 	$(VENV_PYTHON) training/evaluate_goals.py turn --budget $(BUDGET) --out $(TURN_OUT)
 
 reach: install-train  ## the same for crawling to a point
