@@ -78,7 +78,7 @@ def test_the_pass_has_four_stages_in_a_row_and_loads_of_the_right_sign():
     assert torque.shape == (len(record.time_s), 3)
     soles = sole_heights(scene, record)
     # A pad gives by 7 µm under the robot's weight, and more where the drive pulls a foot down.
-    assert np.allclose(soles[0], 0.0) and soles.min() > -3e-5
+    assert np.allclose(soles[0], 0.0) and soles.min() > -2e-5
 
 
 def test_a_pass_that_never_ends_has_no_four_stages():

@@ -96,8 +96,8 @@ pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
     let mut force = [-(normal * bias[0]), zero, zero];
     if sticks {
         for k in 1..D {
-            let held = isa.load(&work.warm[D * c + k]) - normal * bias[k];
-            force[k] = I::F::select(touching, held, zero);
+            let stuck = isa.load(&work.warm[D * c + k]) - normal * bias[k];
+            force[k] = I::F::select(touching, stuck, zero);
         }
     }
     let response = Response { force, normal, drag: [zero; 2], along: [held, zero, held] };
