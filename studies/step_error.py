@@ -27,6 +27,8 @@ CHECK_MS = 0.0625
 """The next longer step that divides 10 ms: how far the reference itself is converged."""
 SPEED_M_S = 0.1
 PASS_S = 1.8
+EVEN_FRICTION = 0.9
+"""Between the preset's coefficients at rest and in motion."""
 
 
 @dataclass(frozen=True)
@@ -93,10 +95,10 @@ def strides_mm(scene: str, step_ms: float) -> Floats:
     return np.array([MM * record.progress_m[-1] for record in records])
 
 
-def strides_and_yaws(step_ms: float) -> tuple[Floats, Floats]:
+def strides_and_yaws(step_ms: float, friction: float | None) -> tuple[Floats, Floats]:
     """Strides [mm] and yaws [°] of passes beside the robot in space, one for each offset and height."""
     drives = [
-        Drive(3, offset_mm=offset, height_mm=height, step_ms=step_ms)
+        Drive(3, offset_mm=offset, height_mm=height, step_ms=step_ms, friction=friction)
         for offset in OFFSETS_MM
         for height in HEIGHTS_MM
     ]
@@ -121,8 +123,8 @@ def plane(scene: str) -> Converged:
     return converged([strides_mm(scene, step) for step in steps], strides_mm(scene, SHORT_MS), steps)
 
 
-def space() -> tuple[Converged, Converged]:
-    """Stride [mm] and yaw [°] of three magnets in space."""
+def space(friction: float | None = None) -> tuple[Converged, Converged]:
+    """Stride [mm] and yaw [°] of three magnets in space. `friction`: as of a `Drive`."""
     steps = (*STEPS_MS, CHECK_MS)
-    strides, yaws = zip(*(strides_and_yaws(step) for step in (*steps, SHORT_MS)), strict=True)
+    strides, yaws = zip(*(strides_and_yaws(step, friction) for step in (*steps, SHORT_MS)), strict=True)
     return converged(strides[:-1], strides[-1], steps), converged(yaws[:-1], yaws[-1], steps)

@@ -3,7 +3,8 @@
 Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
 (space), eight lanes and one, on all cores and on one, each the median of several runs after a warm-up, with
 what the contact solve took; and what passes of the drive give at several solver steps against steps of
-0.05 ms: stride in the plane, stride and yaw in space. About three minutes.
+0.05 ms: stride in the plane, stride and yaw in space, there also with friction that does not fall as a foot
+begins to slide. About five minutes.
 
     python -m studies.throughput --out runs/bench/throughput.json
 """
@@ -21,7 +22,7 @@ from typing import Any
 import gymnasium
 
 from magworm_gym import Scene
-from studies.step_error import Converged, plane, space
+from studies.step_error import EVEN_FRICTION, Converged, plane, space
 
 ENVIRONMENTS = 256
 CONTROL_STEPS = 50
@@ -119,7 +120,7 @@ def report(result: dict[str, Any], errors: dict[str, Converged]) -> str:
     lines = speeds(result)
     for name, error in errors.items():
         what, unit = name.rsplit("_", 1)
-        lines += error.lines(what, {"mm": "mm", "deg": "°"}[unit])
+        lines += error.lines(what.replace("_", " "), {"mm": "mm", "deg": "°"}[unit])
     return "\n".join(lines)
 
 
@@ -134,7 +135,16 @@ def main() -> None:
         "space": summary("MagWorm/Turn-v0", "turn-3", arguments.repetitions),
     }
     stride, yaw = space()
-    errors = {"plane": {"stride_mm": plane("paper-3")}, "space": {"stride_mm": stride, "yaw_deg": yaw}}
+    even_stride, even_yaw = space(EVEN_FRICTION)
+    errors = {
+        "plane": {"stride_mm": plane("paper-3")},
+        "space": {
+            "stride_mm": stride,
+            "yaw_deg": yaw,
+            "stride_at_even_friction_mm": even_stride,
+            "yaw_at_even_friction_deg": even_yaw,
+        },
+    }
     for dimension, speed in speed_of.items():
         print(report(speed, errors[dimension]))
     if arguments.out is not None:

@@ -40,6 +40,7 @@ class Drive:
         height_mm: Height of the drive [mm].
         speed_mm_s: Its speed along x [mm/s].
         step_ms: Step of the solver [ms].
+        friction: Coefficient at rest and in motion; none for the preset's, which falls as a foot slides.
     """
 
     magnets: int
@@ -48,6 +49,7 @@ class Drive:
     height_mm: float = -22.0
     speed_mm_s: float = 100.0
     step_ms: float = 2.0
+    friction: float | None = None
 
     def scene(self) -> Scene:
         """The preset with as many magnets, in space, under this drive."""
@@ -60,6 +62,8 @@ class Drive:
             "speed_m_s": self.speed_mm_s / MM,
         }
         changes = {"dimensions": 3, "drive.motion": motion, "solver.step_s": self.step_ms / MM}
+        if self.friction is not None:
+            changes |= {f"ground.{kind}_friction": self.friction for kind in ("static", "dynamic")}
         return Scene.preset(f"paper-{self.magnets}").with_values(changes)
 
     def duration_s(self, body_length_m: float) -> float:
