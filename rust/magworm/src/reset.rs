@@ -108,7 +108,7 @@ fn lay_straight<const W: usize>(
     lane: usize,
     start: StartPose,
 ) {
-    for rows in block.state_rows_mut().into_iter().take(5) {
+    for rows in block.state_rows_mut().into_iter().take(6) {
         rows.iter_mut().for_each(|row| row[lane] = 0.0);
     }
     block.twist.iter_mut().for_each(|row| row[lane] = 0.0);

@@ -96,9 +96,11 @@ fn commit<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, bloc
     let go = running & sound;
     let count = isa.load(&block.step_count[0]);
     isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
+    let lag = elastic::lag(model.scene.solver.integrator);
     for dof in 0..model.coordinates.count {
         let (q, v) = (isa.load(&block.q[dof]), isa.load(&block.v[dof]));
-        let next = isa.load(&block.next[dof]);
+        let (next, lagged) = (isa.load(&block.next[dof]), isa.load(&block.lagged[dof]));
+        isa.store(I::F::select(go, next + (v - next) * lag, lagged), &mut block.lagged[dof]);
         isa.store(I::F::select(go, next, v), &mut block.v[dof]);
         isa.store(I::F::select(go, q + next * model.step_s, q), &mut block.q[dof]);
     }

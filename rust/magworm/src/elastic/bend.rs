@@ -32,7 +32,7 @@ pub fn assemble<const W: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
+    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
     let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
     let places = Places { node: &block.node, q: &block.q };
     let law = model.scene.solver.curvature;

@@ -17,7 +17,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
+    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
     let (tangent, length, inverse_length) =
         (&*block.tangent, &*block.length, &*block.inverse_length);
     let (director, side) = (&*block.director, &*block.side);

@@ -42,7 +42,7 @@ pub fn assemble<const W: usize, I: Isa<W>>(
         let strains = joint.strains(isa, block, model.scene.solver.curvature, k);
         let places = Places { node: &block.node, q: &block.q };
         joint.gradients(isa, places, spring, &strains, &mut gradients);
-        let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.v);
+        let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
         let mut equations = Equations { matrix, right, v };
         let springs = Springs {
             stencil: &spring.stencil,

@@ -77,6 +77,9 @@ pub struct Block<const W: usize> {
     pub q: Rows<W>,
     /// Their velocities [m/s, rad/s]; multipliers hold impulses [N·s], shape [unknowns].
     pub v: Rows<W>,
+    /// What the springs take for the velocities at the start of a step [m/s, rad/s], see [`crate::elastic::lag`],
+    /// shape [unknowns].
+    pub lagged: Rows<W>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].
     pub normal: Rows<W>,
     /// What the spring of each pad holds along x and in space along z [N·s], shape [contacts × (D − 1)]. Friction
@@ -151,6 +154,7 @@ impl<const W: usize> Block<W> {
         let mut this = Self {
             q: zeros(unknowns),
             v: zeros(unknowns),
+            lagged: zeros(unknowns),
             normal: zeros(contacts),
             pad: zeros((dimensions - 1) * contacts),
             mode: zeros(contacts),
@@ -184,10 +188,11 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows that change in time, in the order of a snapshot.
-    pub fn state_rows(&self) -> [&Rows<W>; 14] {
+    pub fn state_rows(&self) -> [&Rows<W>; 15] {
         [
             &self.q,
             &self.v,
+            &self.lagged,
             &self.normal,
             &self.pad,
             &self.mode,
@@ -204,10 +209,11 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows of [`Self::state_rows`], to be written.
-    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 14] {
+    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 15] {
         [
             &mut self.q,
             &mut self.v,
+            &mut self.lagged,
             &mut self.normal,
             &mut self.pad,
             &mut self.mode,

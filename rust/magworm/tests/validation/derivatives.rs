@@ -166,8 +166,8 @@ fn validates_elastic_forces() {
 }
 
 /// The equations of a step of Newmark's scheme from any velocities, from finite differences and dense: the matrix
-/// M + Δt (τ + ½ Δt) Σ k g gᵀ + Δt² (0.1 + ½) Σ (T/|e|) n nᵀ over elements in tension; the right-hand side, where both
-/// sums stand with ½ Δt² v; and the solution, by a dense factorisation, against one step.
+/// M + Δt (τ + ½ Δt) Σ k g gᵀ + Δt² (0.01 + ½) Σ (T/|e|) n nᵀ over elements in tension; the right-hand side, where both
+/// sums stand with ½ Δt² and the lagging velocity; and the solution, by a dense factorisation, against one step.
 #[test]
 fn validates_implicit_step() {
     for (name, mut world) in bodies() {
@@ -176,13 +176,16 @@ fn validates_implicit_step() {
         let (q, dt) = (unknowns(&world), world.model.step_s);
         for k in 0..q.len() {
             world.block.v[k][0] = 0.1 * (1.3 + 3.1 * k as f64).sin();
+            world.block.lagged[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
         }
         kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
         assemble::<1, 2, _>(Scalar, &world.model, &mut world.block);
-        let matrix = expected_matrix(&world, &q, [3e-3 + 0.5 * dt, 0.6 * dt]);
+        let matrix = expected_matrix(&world, &q, [3e-3 + 0.5 * dt, 0.51 * dt]);
         let taken_back = expected_matrix(&world, &q, [0.5 * dt, 0.5 * dt]);
+        let masses = expected_matrix(&world, &q, [0.0; 2]);
         let v = DVector::from_iterator(q.len(), world.block.v.iter().map(|v| v[0]));
-        let mut balance = taken_back * v;
+        let lagged = DVector::from_iterator(q.len(), world.block.lagged.iter().map(|v| v[0]));
+        let mut balance = &masses * v + (taken_back - &masses) * lagged;
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             balance -= gradient * (dt * strain.stiffness * strain.value);
         }

@@ -5,6 +5,7 @@ use crate::report::Case;
 use crate::statics::{MESHES, Refined, farthest_from_two};
 use crate::world::{CURVATURES, ROD, World, number};
 use magworm::model::Anchor;
+use nalgebra::{Complex, Matrix2, Vector2};
 
 const LENGTH_M: f64 = 0.1;
 const THICKNESS_M: f64 = 4e-3;
@@ -114,16 +115,47 @@ fn validates_cantilever_frequencies() {
     case.finish();
 }
 
-/// Frequency and decay that a scheme gives an undamped vibration of phase z = ω Δt a step, from the eigenvalues of a step.
-fn discrete(integrator: &str, phase: f64) -> [f64; 2] {
-    if integrator == "'euler'" {
-        return [phase.atan(), 0.5 * (phase * phase).ln_1p()];
+/// Angular frequency and decay rate of a scheme from z, by which a step multiplies a vibration.
+fn rates(z: Complex<f64>, step: f64) -> [f64; 2] {
+    [z.arg() / step, -z.norm().ln() / step]
+}
+
+/// The z of an undamped vibration of phase ωΔt.
+fn predicted(integrator: &str, phase: f64) -> Complex<f64> {
+    if integrator == "euler" {
+        return Complex::new(1.0, -phase).inv();
     }
-    // (1 + 0.6 z²) v⁺ = (1 + 0.5 z²) v − z² q/Δt, q⁺ = q + Δt v⁺.
-    let z2 = phase * phase;
-    let (shrink, trace) =
-        ((1.0 + 0.5 * z2) / (1.0 + 0.6 * z2), (2.0 + 0.1 * z2) / (1.0 + 0.6 * z2));
-    [(0.5 * trace / shrink.sqrt()).acos(), -0.5 * shrink.ln()]
+    // q⁺ − 2q + q⁻ = −(ωΔt)² (½ q⁺ + e q + (½ − 2e) q⁻ + e q⁻⁻), e = λ/2.
+    let (e, squared) = (0.05, phase * phase);
+    let cubic =
+        [1.0 + 0.5 * squared, e * squared - 2.0, 1.0 + (0.5 - 2.0 * e) * squared, e * squared];
+    let mut z = Complex::from_polar(1.0, phase);
+    for _ in 0..20 {
+        let value = cubic.iter().fold(Complex::<f64>::ZERO, |sum, c| sum * z + c);
+        let slope = (z * (3.0 * cubic[0]) + 2.0 * cubic[1]) * z + cubic[2];
+        z -= value / slope;
+    }
+    z
+}
+
+/// The z of a mode: a' = 2 Re(z) a − |z|² a⁻ holds for its share a of the motion, by least squares.
+fn found(world: &mut World, beta: f64) -> Complex<f64> {
+    world.steps(20);
+    let shares: Vec<f64> = (0..200)
+        .map(|_| {
+            world.steps(1);
+            amplitude(world, beta)
+        })
+        .collect();
+    let (mut normal, mut right) = (Matrix2::zeros(), Vector2::zeros());
+    for three in shares.windows(3) {
+        let row = Vector2::new(three[1], -three[0]);
+        normal += row * row.transpose();
+        right += row * three[2];
+    }
+    let solved = normal.lu().solve(&right).expect("a vibration");
+    let real = 0.5 * solved[0];
+    Complex::new(real, (solved[1] - real * real).sqrt())
 }
 
 /// The implicit schemes' first mode. Both make of e^{iωt} powers of a complex number, so frequency and decay are
@@ -133,34 +165,34 @@ fn validates_implicit_frequency() {
     let beta = 1.87510407;
     let mut case = Case::new("implicit_frequency", "What the implicit schemes do to a vibration")
         .equation(
-            "Euler: ω_Δt = atan(z)/Δt, decay ln(1 + z²)/2Δt; Newmark: eigenvalues of (1 + 0.6 z²) v⁺ = (1 + 0.5 z²) v − \
-            z² q/Δt, q⁺ = q + Δt v⁺; z = ωΔt with ω the exact frequency",
+            "Euler: z = 1/(1 − iωΔt); Newmark with a lag λ = 0.1: the root of z³ − 2z² + z = −(ωΔt)² (½ z³ + ½ λ z² + (½ − λ) z \
+            + ½ λ) near e^{iωΔt}; ω_Δt = arg z/Δt, decay −ln |z|/Δt",
         )
         .source(
             "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II; N. M. Newmark, J. Eng. Mech. Div. 85 \
-            (1959) 67, β = ½ with a retardation time of Δt/10",
+            (1959) 67, β = ½; older values after H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Earthq. Eng. Struct. Dyn. 5 \
+            (1977) 283",
         )
         .scene(ROD, &[("body.clamp", "'head'"), ("body.elements", "40"), ("solver.integrator", "…"), ("solver.step_s", "…")])
         .note(
-            "At 2 ms a vibration of 4 rad/s loses 0.16 % of its amplitude a second under Newmark's scheme, ten times that \
-            under backward Euler.",
+            "First mode, 4 rad/s. z is fitted to 200 steps. At the presets' 2 ms backward Euler takes 1.6 % of such a vibration a \
+            second, Newmark's scheme 5e-8.",
         );
     for (integrator, step) in
-        [("'newmark'", 2e-3), ("'newmark'", 5e-4), ("'euler'", 2e-3), ("'euler'", 5e-4)]
+        [("newmark", 0.05), ("newmark", 0.02), ("euler", 2e-3), ("euler", 5e-4)]
     {
-        let text = number(step);
+        let (scheme, text) = (format!("'{integrator}'"), number(step));
         let edits = [
-            ("solver.integrator", integrator),
+            ("solver.integrator", scheme.as_str()),
             ("solver.step_s", &text),
             ("control.step_s", &text),
         ];
-        let (omega, decay) = vibration(&mut in_mode(beta, &edits), beta, 3);
-        let [turned, lost] =
-            discrete(integrator, exact_rad_s(beta) * step).map(|angle| angle / step);
-        let scheme = integrator.trim_matches('\'');
-        // The mesh gives 2e-4; the peaks are sampled once a step, (ωΔt)²/8 off at most.
-        case.relative(format!("ω, {scheme}, Δt = {step} s"), "rad/s", [omega, turned], 1e-3);
-        case.relative(format!("decay, {scheme}, Δt = {step} s"), "1/s", [decay, lost], 1e-2);
+        let [omega, decay] = rates(found(&mut in_mode(beta, &edits), beta), step);
+        let [turned, lost] = rates(predicted(integrator, exact_rad_s(beta) * step), step);
+        // The mesh gives 2e-4 in ω.
+        let what = format!("{integrator}, Δt = {step} s");
+        case.relative(format!("ω, {what}"), "rad/s", [omega, turned], 1e-3);
+        case.relative(format!("decay, {what}"), "1/s", [decay, lost], 1e-2);
     }
     case.finish();
 }

@@ -1,6 +1,6 @@
 //! Free flight: momentum, angular momentum, energy.
 
-use crate::report::{Case, farthest_from, orders, short};
+use crate::report::{Case, orders, short};
 use crate::world::{ROD, World, number};
 use magworm::model::Anchor;
 
@@ -92,7 +92,8 @@ fn validates_momentum_in_free_flight() {
             at 0.36 m/s and turns at 5 rad/s for 5000 steps. The angular momentum is about the \
             origin. Linear momentum is kept to rounding by both schemes, angular momentum by the \
             explicit one. The implicit scheme damps the turning of tension by a retardation time of \
-            Δt/10, which is a torque: it loses spin in proportion to Δt.",
+            Δt/100, which is a torque: it loses spin in proportion to Δt, at long steps \
+            with a higher power, by the lag.",
         );
     for (integrator, step) in [("'newmark'", "5e-4"), ("'explicit'", "1e-5")] {
         for damping in ["0.0", "2e-3"] {
@@ -118,7 +119,8 @@ fn validates_momentum_in_free_flight() {
         &["Δt [s]", "change"],
         rows.collect(),
     );
-    case.inside("order of that change in Δt", "", farthest_from(1.0, &orders(&lost)), 0.7..=1.3);
+    let lowest = orders(&lost).into_iter().fold(f64::INFINITY, f64::min);
+    case.inside("lowest order of that change in Δt", "", lowest, 0.7..=4.0);
     case.finish();
 }
 
@@ -172,7 +174,7 @@ fn spun(integrator: &str, step: f64) -> [f64; 2] {
 }
 
 /// Under the implicit schemes a turning rod loses spin by truncation alone, at a rate that has a closed form. The torque of
-/// the geometric stiffness, d ω ∫ T dx with d = Δt under backward Euler and Δt/10 under Newmark's scheme, and a tension T
+/// the geometric stiffness, d ω ∫ T dx with d = Δt under backward Euler and Δt/100 under Newmark's scheme, and a tension T
 /// that is more than the centrifugal one: to keep its length in a step the rod's ends move inwards by ½ ω² Δt, which a
 /// scheme takes for a strain rate that lasts Δt + τ. Hence −L̇/L = d ω² (1 + 6 c² (Δt + τ) Δt/L²), c² = E/ρ.
 #[test]
@@ -180,7 +182,7 @@ fn validates_implicit_rotation_loses_only_its_truncation() {
     let (tau, c2) = (2e-3, 100.0);
     let mut case =
         Case::new("implicit_rotation_loses_only_its_truncation", "Spin under the implicit schemes")
-            .equation("−L̇/L = d ω² (1 + 6 (E/ρ) (Δt + τ) Δt/L²), d = Δt (Euler), Δt/10 (Newmark)")
+            .equation("−L̇/L = d ω² (1 + 6 (E/ρ) (Δt + τ) Δt/L²), d = Δt (Euler), Δt/100 (Newmark)")
             .source(
                 "Leading terms of the schemes' truncation error for a rotating, extensible rod, \
             derived in the test",
@@ -191,7 +193,7 @@ fn validates_implicit_rotation_loses_only_its_truncation() {
             the linearised strain: to keep its length in a step the rod's ends move inwards by ½ω²Δt, which \
             the scheme takes for a strain rate.",
             );
-    for (name, integrator, share) in [("Euler", "'euler'", 1.0), ("Newmark", "'newmark'", 0.1)] {
+    for (name, integrator, share) in [("Euler", "'euler'", 1.0), ("Newmark", "'newmark'", 0.01)] {
         for step in [2e-3, 5e-4] {
             let [lost, omega2] = spun(integrator, step);
             let stretch = 6.0 * c2 * (step + tau) * step / (LENGTH_M * LENGTH_M);
