@@ -1,0 +1,223 @@
+"""The cases: a pass of the drive in the plane and in space, the lift, a falling cantilever, an incline."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from magworm_gym import Recording, Scene
+from studies.error.case import Axis, Case, Outcome
+from studies.error.settings import Settings
+from studies.paper.lift import HOLD_S, LOW_M, RISE_S, middle_lift
+from studies.paper.scenes import AHEAD_M, PLANE_M, under_middle
+from studies.turning.passes import Drive, outcome_of
+
+MM = 1e3
+PASS_S = 1.8
+SPEED_M_S = 0.1
+HEIGHTS_MM = np.linspace(-22.4, -21.6, 33)
+STEPS_MS = (10.0, 5.0, 4.0, 2.0, 1.0, 0.5)
+EULER_MS = (5.0, 2.0, 1.0, 0.5, 0.2)
+EXPLICIT_MS = (0.02, 0.01, 0.005)
+MESHES = (2, 3, 4, 8)
+ORDERS = (0, 1, 2, 3)
+EVEN_FRICTION = 0.9
+"""Coefficient of the case in space, at rest and in motion."""
+TIP_MM = (52.708, -11.759)
+"""Tip of the cantilever after a second: an extensible Kirchhoff rod, by an independent discretisation."""
+ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
+ROD_MESHES = (9, 18, 27, 54, 108)
+SLOPE_DEG, SLOPE_FRICTION, GRAVITY_M_S2 = 60.0, 0.6, 9.81
+
+
+def tracks(records: Sequence[Recording], axes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    """Places of all magnets (R, T, M, axes) [m]."""
+    return np.stack([record.magnet_poses[..., :axes] for record in records])
+
+
+def crawl() -> Case:
+    """A pass of the drive in the plane."""
+    scenes = []
+    for height_mm in HEIGHTS_MM:
+        place = {"x_m": -AHEAD_M, "y_m": float(height_mm) / MM, "speed_m_s": SPEED_M_S}
+        scenes.append(Scene.preset("paper-3").with_values({"drive.motion": {"kind": "constant", **place}}))
+    grid = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
+    return Case(
+        name="crawl",
+        title="A crawling pass",
+        text="The drive passes `paper-3` at 100 mm/s, 33 times at heights from −22.4 to −21.6 mm. Stride: way of the"
+        " centre; peak: greatest height of the middle magnet; pose: all three magnets over all time.",
+        body="worm",
+        scenes=scenes,
+        duration_s=PASS_S,
+        sample_s=0.02,
+        read=read_crawl,
+        axes=(
+            Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
+            Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
+            Axis("step", [Settings(step, integrator="explicit") for step in EXPLICIT_MS], Settings(0.05)),
+            Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
+            Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
+        ),
+        front=[
+            *grid,
+            *(Settings(step, 4, 1) for step in (5.0, 2.0)),
+            *(Settings(step, 4, integrator="euler") for step in EULER_MS),
+        ],
+        reference=Settings(0.1, 16, 4),
+        check=Settings(0.2, 12, 3),
+    )
+
+
+def read_crawl(records: Sequence[Recording]) -> Outcome:
+    """Stride [mm], peak [mm] and places of the magnets."""
+    places = tracks(records, 2)
+    peak = places[:, :, 1, 1].max(axis=1) - places[:, 0, 1, 1]
+    stride = np.array([record.progress_m[-1] for record in records])
+    return Outcome({"stride": MM * stride, "peak": MM * peak}, places)
+
+
+def lift() -> Case:
+    """The paper's first case."""
+    scene = under_middle(Scene.preset("paper-3"), [0.0, RISE_S], [LOW_M, PLANE_M])
+    return Case(
+        name="lift",
+        title="The lift",
+        text="The paper's first case: the drive rises under the middle magnet in 0.5 s. Lift: height gained by that"
+        " magnet after 0.8 s.",
+        body="worm",
+        scenes=[scene],
+        duration_s=RISE_S + HOLD_S,
+        sample_s=0.02,
+        read=read_lift,
+        axes=(
+            Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
+            Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
+            Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
+            Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
+        ),
+        front=[Settings(step, mesh) for mesh in MESHES for step in STEPS_MS],
+        reference=Settings(0.1, 16, 4),
+        check=Settings(0.2, 12, 3),
+    )
+
+
+def read_lift(records: Sequence[Recording]) -> Outcome:
+    """Lift [mm] and places of the magnets."""
+    lifts = np.array([middle_lift(record)[-1] for record in records])
+    return Outcome({"lift": MM * lifts}, tracks(records, 2))
+
+
+def cantilever() -> Case:
+    """An undamped heavy cantilever let go from the horizontal."""
+    scene = Scene.preset("cantilever").with_values({"material.damping_time_s": 0.0})
+    return Case(
+        name="cantilever",
+        title="An undamped heavy cantilever",
+        text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, let go from the horizontal: about two swings in the second that"
+        " is run. Tip: its distance from the clamp along the horizontal and below, against (52.708, −11.759) mm of an"
+        " extensible Kirchhoff rod; codes with shear and rotary inertia differ by up to 1 % of the length.",
+        body="rod",
+        scenes=[scene],
+        duration_s=1.0,
+        sample_s=0.02,
+        read=read_cantilever,
+        axes=(
+            Axis("step", [Settings(step, 54) for step in ROD_STEPS_MS], Settings(0.02, 54)),
+            Axis(
+                "step", [Settings(step, 54, integrator="euler") for step in ROD_STEPS_MS], Settings(0.02, 54)
+            ),
+            Axis(
+                "step",
+                [Settings(step, 54, integrator="explicit") for step in EXPLICIT_MS],
+                Settings(0.02, 54),
+            ),
+            Axis("elements", [Settings(0.05, mesh) for mesh in ROD_MESHES], Settings(0.05, 216)),
+        ),
+        front=[Settings(step, mesh) for mesh in ROD_MESHES for step in ROD_STEPS_MS],
+        reference=Settings(0.02, 216),
+        check=Settings(0.04, 108),
+    )
+
+
+def read_cantilever(records: Sequence[Recording]) -> Outcome:
+    """Distance of the tip from where it should be [m] as a track of one point at the end."""
+    tips = np.array([record.nodes[-1, -1] - record.nodes[0, 0] for record in records])
+    return Outcome({"tip x": MM * tips[:, 0], "tip y": MM * tips[:, 1]}, tips[:, None, None, :])
+
+
+def incline() -> Case:
+    """A block that slides down an incline."""
+    scene = Scene.preset("incline-block").with_values({"ground.incline_deg": SLOPE_DEG})
+    slope = math.radians(SLOPE_DEG)
+    acceleration = GRAVITY_M_S2 * (math.sin(slope) - SLOPE_FRICTION * math.cos(slope))
+    return Case(
+        name="incline",
+        title="A block on an incline",
+        text="`incline-block` slides for a second down 60°, with a friction of 0.6. Way: against ½ g (sin α − μ cos α) t².",
+        body="rod",
+        scenes=[scene],
+        duration_s=1.0,
+        sample_s=0.02,
+        read=read_incline,
+        axes=(
+            Axis("step", [Settings(step, 8) for step in STEPS_MS], Settings(0.05, 8)),
+            Axis("step", [Settings(step, 8, integrator="euler") for step in EULER_MS], Settings(0.05, 8)),
+        ),
+        front=[Settings(step, 8) for step in STEPS_MS],
+        reference=Settings(0.05, 8),
+        check=Settings(0.1, 8),
+        exact={"way": MM * acceleration / 2.0},
+    )
+
+
+def read_incline(records: Sequence[Recording]) -> Outcome:
+    """Way of the block's centre [mm]."""
+    centres = [record.nodes.mean(axis=1) for record in records]
+    way = np.array([float(np.linalg.norm(centre[-1] - centre[0])) for centre in centres])
+    return Outcome({"way": MM * way}, None)
+
+
+def turn() -> Case:
+    """Passes beside the robot in space."""
+    offsets, heights = (2.0, 3.0, 4.0), np.linspace(-22.3, -21.7, 8)
+    drives = [
+        Drive(3, offset_mm=offset, height_mm=float(height), friction=EVEN_FRICTION)
+        for offset in offsets
+        for height in heights
+    ]
+    steps, meshes = (5.0, 2.0, 1.0, 0.5), (2, 4, 8)
+    return Case(
+        name="turn",
+        title="A pass beside the robot, in space",
+        text="The drive passes 2, 3 and 4 mm beside the robot, 24 times, with a friction of 0.9 at rest and in motion: with the"
+        " presets' friction, which falls as a foot slides, passes branch and no step of 0.5 ms or longer is converged"
+        " (README, Speed). Stride and yaw; pose: all magnets over all time.",
+        body="worm",
+        scenes=[drive.scene() for drive in drives],
+        duration_s=PASS_S,
+        sample_s=0.02,
+        read=read_turn,
+        axes=(
+            Axis("step", [Settings(step) for step in steps], Settings(0.1)),
+            Axis("step", [Settings(step, integrator="euler") for step in steps], Settings(0.1)),
+            Axis("elements", [Settings(0.5, mesh) for mesh in meshes], Settings(0.5, 12)),
+            Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=5)),
+        ),
+        front=[Settings(step, mesh) for mesh in meshes for step in steps],
+        reference=Settings(0.2, 12, 3),
+        check=Settings(0.5, 8, 3),
+    )
+
+
+def read_turn(records: Sequence[Recording]) -> Outcome:
+    """Stride [mm], yaw [°] and places of the magnets."""
+    found = [outcome_of(record) for record in records]
+    figures = {
+        "stride": np.array([one.stride_mm for one in found]),
+        "yaw": np.array([one.yaw_deg for one in found]),
+    }
+    return Outcome(figures, tracks(records, 3))
+
+
+CASES = {case.name: case for case in (crawl(), turn(), lift(), cantilever(), incline())}

@@ -1,0 +1,51 @@
+"""What is varied: integrator, step, mesh and wrench."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+MS = 1e3
+INTEGRATORS = {
+    "newmark": "Newmark",
+    "euler": "backward Euler",
+    "explicit": "explicit, multipliers",
+}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Numerical choices of a run.
+
+    Attributes:
+        step_ms: Step [ms].
+        elements: Elements of a bridge between two feet, and four times those of a foot's end; of a rod, of
+            its whole length.
+        order: Order of the quadrature of the wrench; 0 takes dipoles.
+        integrator: Scheme.
+    """
+
+    step_ms: float
+    elements: int = 4
+    order: int = 2
+    integrator: str = "newmark"
+
+    def changes(self, body: str) -> dict[str, Any]:
+        """As values of a scene whose body is a worm or a rod."""
+        values: dict[str, Any] = {
+            "solver.integrator": self.integrator,
+            "solver.step_s": self.step_ms / MS,
+        }
+        if body == "rod":
+            return values | {"body.elements": self.elements}
+        wrench: Mapping[str, Any] = (
+            {"solver.quadrature_order": self.order} if self.order else {"solver.magnet_model": "dipole"}
+        )
+        return values | wrench | {
+            "body.elements_per_bridge": self.elements,
+            "body.elements_per_foot_end": max(1, self.elements // 4),
+        }
+
+    def text(self) -> str:
+        """In words."""
+        wrench = f"order {self.order}" if self.order else "dipoles"
+        return f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms, {self.elements} elements, {wrench}"
