@@ -16,10 +16,10 @@ MM = 1e3
 PASS_S = 1.8
 SPEED_M_S = 0.1
 HEIGHTS_MM = np.linspace(-22.4, -21.6, 33)
-STEPS_MS = (10.0, 5.0, 4.0, 2.0, 1.0, 0.5)
+STEPS_MS = (10.0, 5.0, 2.0, 1.0, 0.5)
 EULER_MS = (5.0, 2.0, 1.0, 0.5, 0.2)
 EXPLICIT_MS = (0.02, 0.01, 0.005)
-MESHES = (2, 3, 4, 8)
+MESHES = (2, 4, 8, 12)
 ORDERS = (0, 1, 2, 3)
 EVEN_FRICTION = 0.9
 """Coefficient of the case in space, at rest and in motion."""
@@ -55,7 +55,6 @@ def crawl() -> Case:
         axes=(
             Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
             Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
-            Axis("step", [Settings(step, integrator="explicit") for step in EXPLICIT_MS], Settings(0.05)),
             Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
             Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
         ),
@@ -141,8 +140,8 @@ def cantilever() -> Case:
 
 
 def read_cantilever(records: Sequence[Recording]) -> Outcome:
-    """Distance of the tip from where it should be [m] as a track of one point at the end."""
-    tips = np.array([record.nodes[-1, -1] - record.nodes[0, 0] for record in records])
+    """Place of the tip at the end [mm], the wall at the origin, and the same as a track [m]."""
+    tips = np.array([record.nodes[-1, -1] for record in records])
     return Outcome({"tip x": MM * tips[:, 0], "tip y": MM * tips[:, 1]}, tips[:, None, None, :])
 
 

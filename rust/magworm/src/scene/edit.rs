@@ -3,6 +3,7 @@
 use toml::{Table, Value};
 
 use super::Scene;
+use super::accuracy;
 use super::check::{Place, TAG};
 use super::error::{Problem, SceneError};
 use super::schema::{Kind, Presence};
@@ -12,7 +13,7 @@ impl Scene {
     ///
     /// A table or list replaces the whole one. `None` takes the field out: an optional table is then
     /// left out of the simulation, a field with a default returns to it. A path into an absent
-    /// table begins that table.
+    /// table begins that table. `solver.accuracy` writes the values that it stands for.
     ///
     /// # Errors
     /// A path that no scene has, with the fields that are known there; or a scene that does not
@@ -20,6 +21,10 @@ impl Scene {
     pub fn with_values(&self, values: &[(String, Option<Value>)]) -> Result<Self, SceneError> {
         let mut table = self.to_table()?;
         for (path, value) in values {
+            if let ("solver.accuracy", Some(word)) = (path.as_str(), value) {
+                accuracy::choose(&mut table, word)?;
+                continue;
+            }
             replace(&mut table, &Place::root(), path, value.as_ref())?;
         }
         Ok(Self::from_table(table)?)

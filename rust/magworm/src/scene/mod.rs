@@ -10,6 +10,7 @@
 //! A scene moves in the plane x–y or, with `dimensions = 3`, in space. Yaw is a turn about the
 //! vertical +y, anticlockwise seen from above: it turns x towards −z.
 
+mod accuracy;
 mod body;
 mod check;
 mod drive;

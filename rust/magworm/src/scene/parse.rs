@@ -6,7 +6,7 @@ use toml::Table;
 use super::check::{Place, check_table};
 use super::error::{Problem, SceneError};
 use super::lines;
-use super::{Scene, rules};
+use super::{Scene, accuracy, rules};
 
 impl Scene {
     /// Reads and validates a scene.
@@ -27,7 +27,8 @@ impl Scene {
     }
 
     /// Checks the grammar first: after that serde has nothing left to refuse.
-    pub(super) fn from_table(table: Table) -> Result<Self, Problem> {
+    pub(super) fn from_table(mut table: Table) -> Result<Self, Problem> {
+        accuracy::expand(&mut table)?;
         check_table(&table, &Place::root())?;
         let scene = Self::deserialize(table)
             .map_err(|error| Problem::Syntax(error.message().replace('\n', "; ")))?;
