@@ -36,6 +36,6 @@ def half_cell_length_m(elements: int) -> float:
     return LENGTH_M / (elements - 0.5)
 
 
-def error(tip_mm: tuple[float, float]) -> float:
-    """Distance of a tip [mm] from the reference's, over the length."""
-    return math.dist(tip_mm, TIP_MM) / (MM * LENGTH_M)
+def apart(tip_mm: tuple[float, float], other_mm: tuple[float, float]) -> float:
+    """Distance of two tips [mm], over the length."""
+    return math.dist(tip_mm, other_mm) / (MM * LENGTH_M)

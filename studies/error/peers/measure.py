@@ -3,7 +3,7 @@
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,7 +17,10 @@ REFINEMENTS = (1, 2)
 REPETITIONS = 3
 LONGER = 1.1
 """Factor between two steps that are tried."""
+BEYOND = 1.5
+"""Times the limit that theory estimates, where the search begins."""
 MOST_TRIALS = 60
+FARTHEST_MM = 2.0 * MM * LENGTH_M
 SAME_MM = 0.02 * MM * LENGTH_M
 """Beyond its limit an explicit step is wrong by lengths; within it, halving it changes little."""
 
@@ -32,20 +35,20 @@ class Measured:
     wall_s: float
 
 
-def measured(release: Release, meshes: dict[int, float]) -> Iterator[Measured]:
+def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
     """The largest stable step for each mesh, then half of it.
 
     Args:
         release: Of the peer.
-        meshes: Numbers of elements, each with a step that is hardly too long for it [s].
+        meshes: Numbers of elements, each with about the longest step that theory allows it [s].
     """
-    for elements, long_s in meshes.items():
-        fewest = fewest_steps(
-            lambda steps, n=elements: tip(release, n, steps), math.ceil(DURATION_S / long_s)
-        )
+    runs = []
+    for elements, limit_s in meshes.items():
+        fewest = fewest_steps(partial(tip, release, elements), math.ceil(DURATION_S / (BEYOND * limit_s)))
         for refinement in REFINEMENTS:
             step_s = DURATION_S / (refinement * fewest)
-            yield Measured(elements, step_s, *timed(release, elements, step_s))
+            runs.append(Measured(elements, step_s, *timed(release, elements, step_s)))
+    return runs
 
 
 def tip(release: Release, elements: int, steps: int) -> Tip:
@@ -65,8 +68,8 @@ def fewest_steps(tip_mm: Callable[[int], Tip], first: int) -> int:
     """
     steps = first
     for _ in range(MOST_TRIALS):
-        long, short = tip_mm(steps), tip_mm(2 * steps)
-        if math.isfinite(math.dist(long, short)) and math.dist(long, short) < SAME_MM:
+        found = tip_mm(steps)
+        if math.hypot(*found) < FARTHEST_MM and math.dist(found, tip_mm(2 * steps)) < SAME_MM:
             return steps
         steps = math.ceil(LONGER * steps)
     raise RuntimeError(f"no step is stable: tried {first} to {steps} steps a second")

@@ -8,7 +8,7 @@ semi-implicit Euler gives, at more cost. That and Runge-Kutta 4 are run.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 
 import mujoco
@@ -27,7 +27,7 @@ from studies.error.peers.cantilever import (
 )
 from studies.error.peers.measure import Measured, Tip, measured
 
-MESHES = (9, 18, 27)
+MESHES = (9, 18, 27, 36)
 LIMITS = {"Euler": 2.0, "RK4": math.sqrt(8.0)}
 """Schemes by MuJoCo's names, and ω times their longest step for an undamped oscillation."""
 
@@ -52,16 +52,18 @@ CABLE = """
 """
 
 
-def runs() -> Iterator[tuple[str, Measured]]:
-    """Scheme and measured runs."""
+def runs() -> dict[str, list[Measured]]:
+    """By scheme."""
     mujoco.set_mju_user_warning(lambda _: None)  # steps too long are tried on purpose
-    for scheme in LIMITS:
-        meshes = {elements: long_step_s(elements, scheme) for elements in MESHES}
-        for run in measured(partial(released, scheme), meshes):
-            yield scheme, run
+    return {
+        scheme: measured(
+            partial(released, scheme), {elements: limit_s(elements, scheme) for elements in MESHES}
+        )
+        for scheme in LIMITS
+    }
 
 
-def long_step_s(elements: int, scheme: str) -> float:
+def limit_s(elements: int, scheme: str) -> float:
     """Longest step [s] for the bending wave that turns from box to box, slowed by the boxes' own inertia."""
     box_m = half_cell_length_m(elements)
     wave_number = 2.0 / box_m

@@ -2,9 +2,10 @@
 
 import importlib
 import importlib.metadata
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from studies.error.peers.cantilever import error
+from studies.error.peers.cantilever import TIP_MM, apart
 from studies.error.peers.measure import Measured
 
 
@@ -50,7 +51,9 @@ class PeerRun:
         elements: Along the rod, with the one half of which is inside the wall.
         step_s: Step [s].
         tip_mm: Place of the tip, along and up [mm].
-        error: Distance to the reference's tip, over the length.
+        error: Distance to the reference's tip, over the length. Of mesh, step and model: where the peer's
+            rod shears, thins or cannot stretch, finer runs do not end at the reference.
+        own_error: Distance to the tip of the finest run of the same name, over the length: of mesh and step.
         wall_s: Wall time on one thread, median of three after a warm-up [s].
     """
 
@@ -60,6 +63,7 @@ class PeerRun:
     step_s: float
     tip_mm: tuple[float, float]
     error: float
+    own_error: float
     wall_s: float
 
 
@@ -90,11 +94,25 @@ def cantilever_runs() -> list[PeerRun]:
     for peer in PEERS:
         if why_missing(peer) is None:
             version = importlib.metadata.version(peer.distribution)
-            for scheme, run in importlib.import_module(peer.module).runs():
-                runs.append(peer_run(f"{peer.name}, {scheme}", version, run))
+            schemes: dict[str, list[Measured]] = importlib.import_module(peer.module).runs()
+            for scheme, measured in schemes.items():
+                runs += peer_runs(f"{peer.name}, {scheme}", version, measured)
     return runs
 
 
-def peer_run(name: str, version: str, run: Measured) -> PeerRun:
-    """What was measured, with its error."""
-    return PeerRun(name, version, run.elements, run.step_s, run.tip_mm, error(run.tip_mm), run.wall_s)
+def peer_runs(name: str, version: str, measured: Sequence[Measured]) -> list[PeerRun]:
+    """What was measured, with its errors."""
+    finest = min(measured, key=lambda run: (-run.elements, run.step_s))
+    return [
+        PeerRun(
+            name,
+            version,
+            run.elements,
+            run.step_s,
+            run.tip_mm,
+            apart(run.tip_mm, TIP_MM),
+            apart(run.tip_mm, finest.tip_mm),
+            run.wall_s,
+        )
+        for run in measured
+    ]
