@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 from magworm_gym import Scene
 from studies.error.peers import cantilever, cantilever_runs, missing
 from studies.error.peers.measure import Measured, fewest_steps, measured
-from studies.error.peers.runs import PEERS, peer_runs
+from studies.error.peers.runs import PEERS, peer_run
 from studies.error.peers.table import COLUMNS, peers_csv, peers_text
 
 INFINITE = (float("nan"), float("nan"))
@@ -68,14 +68,9 @@ def test_the_first_element_is_centred_on_the_clamp() -> None:
 def test_errors_are_distances_over_the_length() -> None:
     x_mm, y_mm = cantilever.TIP_MM
     off, fine = (x_mm + 3.0, y_mm - 4.0), (x_mm, y_mm + 5.4)
-    runs = peer_runs(
-        "peer",
-        "1.2",
-        [Measured(9, 1e-3, off, 0.5), Measured(27, 1e-4, fine, 9.0), Measured(27, 2e-4, off, 4.0)],
-    )
-    assert [run.error for run in runs] == pytest.approx([5.0 / 54.0, 0.1, 5.0 / 54.0])
-    assert [run.own_error > 0.0 for run in runs] == [True, False, True]
-    assert runs[0].own_error == pytest.approx((3.0**2 + 9.4**2) ** 0.5 / 54.0)
+    run = peer_run("peer", "1.2", Measured(9, 1e-3, off, 0.5), fine)
+    assert run.error == pytest.approx(5.0 / 54.0)
+    assert run.own_error == pytest.approx((3.0**2 + 9.4**2) ** 0.5 / 54.0)
 
 
 def test_the_fewest_steps_that_neither_break_nor_change_when_halved_are_found() -> None:
@@ -106,7 +101,7 @@ def test_each_mesh_is_run_at_its_longest_stable_step_and_at_half_of_it() -> None
 
 
 def test_the_table_has_a_row_for_each_run() -> None:
-    runs = peer_runs("peer, scheme", "1.2", [Measured(9, 1e-3, (50.0, -10.0), 0.5)])
+    runs = [peer_run("peer, scheme", "1.2", Measured(9, 1e-3, (50.0, -10.0), 0.5), (51.0, -10.0))]
     read = list(csv.DictReader(StringIO(peers_csv(runs))))
     assert tuple(read[0]) == COLUMNS
     assert [row["name"] for row in read] == ["peer, scheme"]

@@ -6,7 +6,7 @@ python -m studies.error.peers --out studies/error/peers.csv    # minutes; needs 
 import argparse
 from pathlib import Path
 
-from studies.error.peers.runs import cantilever_runs, missing
+from studies.error.peers.runs import PEERS, PeerRun, runs_of, why_missing
 from studies.error.peers.table import peers_csv, peers_text
 
 
@@ -17,10 +17,12 @@ def main() -> None:
     )
     parser.add_argument("--out", type=Path, help="CSV file to write")
     arguments = parser.parse_args()
-    for peer in missing():
-        print(peer.sentence)
-    runs = cantilever_runs()
-    print(peers_text(runs))
+    runs: list[PeerRun] = []
+    for peer in PEERS:
+        absent = why_missing(peer)
+        found = runs_of(peer) if absent is None else []
+        print(peers_text(found) if absent is None else absent.sentence, flush=True)
+        runs += found
     if arguments.out is not None:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
         arguments.out.write_text(peers_csv(runs), encoding="utf-8")

@@ -17,8 +17,6 @@ REFINEMENTS = (1, 2)
 REPETITIONS = 3
 LONGER = 1.1
 """Factor between two steps that are tried."""
-BEYOND = 1.5
-"""Times the limit that theory estimates, where the search begins."""
 MOST_TRIALS = 60
 FARTHEST_MM = 2.0 * MM * LENGTH_M
 SAME_MM = 0.02 * MM * LENGTH_M
@@ -40,15 +38,21 @@ def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
 
     Args:
         release: Of the peer.
-        meshes: Numbers of elements, each with about the longest step that theory allows it [s].
+        meshes: Numbers of elements, each with a step hardly longer than it allows [s],
+            where the search begins.
     """
     runs = []
     for elements, limit_s in meshes.items():
-        fewest = fewest_steps(partial(tip, release, elements), math.ceil(DURATION_S / (BEYOND * limit_s)))
+        fewest = fewest_steps(partial(tip, release, elements), math.ceil(DURATION_S / limit_s))
         for refinement in REFINEMENTS:
             step_s = DURATION_S / (refinement * fewest)
             runs.append(Measured(elements, step_s, *timed(release, elements, step_s)))
     return runs
+
+
+def finest(release: Release, elements: int, limit_s: float) -> Tip:
+    """Tip of a mesh at half its longest step [mm], untimed."""
+    return tip(release, elements, math.ceil(2.0 * DURATION_S / limit_s))
 
 
 def tip(release: Release, elements: int, steps: int) -> Tip:

@@ -25,9 +25,10 @@ from studies.error.peers.cantilever import (
     YOUNGS_MODULUS_PA,
     half_cell_length_m,
 )
-from studies.error.peers.measure import Measured, Tip, measured
+from studies.error.peers.measure import Measured, Tip, finest, measured
 
-MESHES = (9, 18, 27, 36)
+MESHES = (9, 18, 27)
+FINEST = 54
 LIMITS = {"Euler": 2.0, "RK4": math.sqrt(8.0)}
 """Schemes by MuJoCo's names, and ω times their longest step for an undamped oscillation."""
 
@@ -61,6 +62,11 @@ def runs() -> dict[str, list[Measured]]:
         )
         for scheme in LIMITS
     }
+
+
+def finest_tip_mm() -> Tip:
+    """Tip of a finer mesh, what the others are converging to [mm]."""
+    return finest(partial(released, "RK4"), FINEST, limit_s(FINEST, "RK4"))
 
 
 def limit_s(elements: int, scheme: str) -> float:

@@ -2,11 +2,10 @@
 
 import importlib
 import importlib.metadata
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from studies.error.peers.cantilever import TIP_MM, apart
-from studies.error.peers.measure import Measured
+from studies.error.peers.measure import Measured, Tip
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,8 @@ class PeerRun:
         tip_mm: Place of the tip, along and up [mm].
         error: Distance to the reference's tip, over the length. Of mesh, step and model: where the peer's
             rod shears, thins or cannot stretch, finer runs do not end at the reference.
-        own_error: Distance to the tip of the finest run of the same name, over the length: of mesh and step.
+        own_error: Distance to the tip of the same peer on a mesh finer than any here, over the
+            length: of mesh and step alone.
         wall_s: Wall time on one thread, median of three after a warm-up [s].
     """
 
@@ -90,29 +90,31 @@ def missing() -> list[Missing]:
 
 def cantilever_runs() -> list[PeerRun]:
     """All runs of all peers that are installed, minutes."""
-    runs = []
-    for peer in PEERS:
-        if why_missing(peer) is None:
-            version = importlib.metadata.version(peer.distribution)
-            schemes: dict[str, list[Measured]] = importlib.import_module(peer.module).runs()
-            for scheme, measured in schemes.items():
-                runs += peer_runs(f"{peer.name}, {scheme}", version, measured)
-    return runs
+    return [run for peer in PEERS if why_missing(peer) is None for run in runs_of(peer)]
 
 
-def peer_runs(name: str, version: str, measured: Sequence[Measured]) -> list[PeerRun]:
-    """What was measured, with its errors."""
-    finest = min(measured, key=lambda run: (-run.elements, run.step_s))
+def runs_of(peer: Peer) -> list[PeerRun]:
+    """All runs of a peer that is installed."""
+    version = importlib.metadata.version(peer.distribution)
+    module = importlib.import_module(peer.module)
+    finest_mm: Tip = module.finest_tip_mm()
+    schemes: dict[str, list[Measured]] = module.runs()
     return [
-        PeerRun(
-            name,
-            version,
-            run.elements,
-            run.step_s,
-            run.tip_mm,
-            apart(run.tip_mm, TIP_MM),
-            apart(run.tip_mm, finest.tip_mm),
-            run.wall_s,
-        )
-        for run in measured
+        peer_run(f"{peer.name}, {scheme}", version, one, finest_mm)
+        for scheme, measured in schemes.items()
+        for one in measured
     ]
+
+
+def peer_run(name: str, version: str, run: Measured, finest_mm: Tip) -> PeerRun:
+    """What was measured, with its errors."""
+    return PeerRun(
+        name,
+        version,
+        run.elements,
+        run.step_s,
+        run.tip_mm,
+        error=apart(run.tip_mm, TIP_MM),
+        own_error=apart(run.tip_mm, finest_mm),
+        wall_s=run.wall_s,
+    )
