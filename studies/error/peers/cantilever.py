@@ -1,0 +1,41 @@
+"""The case: an undamped heavy cantilever, released from the horizontal and watched for a second.
+
+That of the preset `cantilever` without its damping. It bends about its weak axis; x points along it, y up.
+"""
+
+import math
+
+LENGTH_M = 0.054
+WIDTH_M = 0.010
+THICKNESS_M = 0.004
+YOUNGS_MODULUS_PA = 100e3
+SHEAR_MODULUS_PA = YOUNGS_MODULUS_PA / 3.0
+"""Of rubber, which keeps its volume."""
+DENSITY_KG_M3 = 1070.0
+GRAVITY_M_S2 = 9.81
+DURATION_S = 1.0
+
+TIP_MM = (52.708, -11.759)
+"""Tip after a second: an extensible Kirchhoff rod, by an independent discretisation."""
+
+AREA_M2 = WIDTH_M * THICKNESS_M
+WEAK_M4 = WIDTH_M * THICKNESS_M**3 / 12.0
+STRONG_M4 = THICKNESS_M * WIDTH_M**3 / 12.0
+SOUND_M_S = math.sqrt(YOUNGS_MODULUS_PA / DENSITY_KG_M3)
+"""Speed of a wave along the rod."""
+
+MM = 1e3
+
+
+def half_cell_length_m(elements: int) -> float:
+    """Length of an element where the first is centred on the clamp, half of it inside the wall [m].
+
+    Both peers hold the direction of a whole element, which is right at its centre. Were its end at the wall,
+    the rod would be half an element too short to bend.
+    """
+    return LENGTH_M / (elements - 0.5)
+
+
+def apart(tip_mm: tuple[float, float], other_mm: tuple[float, float]) -> float:
+    """Distance of two tips [mm], over the length."""
+    return math.dist(tip_mm, other_mm) / (MM * LENGTH_M)
