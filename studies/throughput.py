@@ -42,6 +42,11 @@ class Case:
         cores = "all cores" if self.threads is None else f"{self.threads} core"
         return f"{lanes}, {cores}, {self.step_ms:g} ms"
 
+    def measured(self, task: str, scene: str, repetitions: int) -> "Rates":
+        """Runs a preset this way."""
+        changed = Scene.preset(scene).with_values({"solver.step_s": self.step_ms / 1e3})
+        return measured(task, changed, repetitions, lanes=self.lanes, threads=self.threads)
+
 
 CASES = (
     Case("wide", None, 2.0),
@@ -60,22 +65,29 @@ class Rates:
     work: dict[str, float]
 
 
-def measured(task: str, scene: str, case: Case, repetitions: int) -> Rates:
-    """Steps an environment with random actions."""
-    changed = Scene.preset(scene).with_values({"solver.step_s": case.step_ms / 1e3})
+def measured(
+    task: str,
+    scene: Scene,
+    repetitions: int,
+    *,
+    lanes: str = "wide",
+    threads: int | None = None,
+    control_steps: int = CONTROL_STEPS,
+) -> Rates:
+    """Steps environments of a scene with random actions."""
     environment: Any = gymnasium.make_vec(
-        task, num_envs=ENVIRONMENTS, scene=changed, lanes=case.lanes, threads=case.threads
+        task, num_envs=ENVIRONMENTS, scene=scene, lanes=lanes, threads=threads
     )
     environment.reset(seed=0)
     environment.action_space.seed(0)
-    actions = [environment.action_space.sample() for _ in range(CONTROL_STEPS)]
+    actions = [environment.action_space.sample() for _ in range(control_steps)]
     rates = []
     for repetition in range(repetitions + 1):
         start = time.perf_counter()
         for action in actions:
             environment.step(action)
         if repetition > 0:  # the first warms up
-            rates.append(ENVIRONMENTS * CONTROL_STEPS / (time.perf_counter() - start))
+            rates.append(ENVIRONMENTS * control_steps / (time.perf_counter() - start))
     counters = environment.unwrapped.batch.counters()
     environment.close()
     work = {name: count / counters["steps"] for name, count in counters.items() if name != "steps"}
@@ -84,7 +96,7 @@ def measured(task: str, scene: str, case: Case, repetitions: int) -> Rates:
 
 def summary(task: str, scene: str, repetitions: int) -> dict[str, Any]:
     """What both dimensions report about their speed."""
-    found = {case.name(): measured(task, scene, case, repetitions) for case in CASES}
+    found = {case.name(): case.measured(task, scene, repetitions) for case in CASES}
     return {
         "scene": scene,
         "environments": ENVIRONMENTS,

@@ -23,8 +23,6 @@ MESHES = (2, 4, 8, 12)
 ORDERS = (0, 1, 2, 3)
 EVEN_FRICTION = 0.9
 """Coefficient of the case in space, at rest and in motion."""
-TIP_MM = (52.708, -11.759)
-"""Tip of the cantilever after a second: an extensible Kirchhoff rod, by an independent discretisation."""
 ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 ROD_MESHES = (9, 18, 27, 54, 108)
 SLOPE_DEG, SLOPE_FRICTION, GRAVITY_M_S2 = 60.0, 0.6, 9.81
@@ -45,8 +43,9 @@ def crawl() -> Case:
     return Case(
         name="crawl",
         title="A crawling pass",
-        text="The drive passes `paper-3` at 100 mm/s, 33 times at heights from −22.4 to −21.6 mm. Stride: way of the"
-        " centre; peak: greatest height of the middle magnet; pose: all three magnets over all time.",
+        text="The drive passes `paper-3` at 100 mm/s, 33 times at heights from −22.4 to −21.6 mm. Stride:"
+        " way of the centre; peak: greatest height of the middle magnet; pose: all three magnets over"
+        " all time.",
         body="worm",
         scenes=scenes,
         duration_s=PASS_S,
@@ -82,8 +81,8 @@ def lift() -> Case:
     return Case(
         name="lift",
         title="The lift",
-        text="The paper's first case: the drive rises under the middle magnet in 0.5 s. Lift: height gained by that"
-        " magnet after 0.8 s.",
+        text="The paper's first case: the drive rises under the middle magnet in 0.5 s. Lift: height"
+        " gained by that magnet after 0.8 s.",
         body="worm",
         scenes=[scene],
         duration_s=RISE_S + HOLD_S,
@@ -113,9 +112,10 @@ def cantilever() -> Case:
     return Case(
         name="cantilever",
         title="An undamped heavy cantilever",
-        text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, let go from the horizontal: about two swings in the second that"
-        " is run. Tip: its distance from the clamp along the horizontal and below, against (52.708, −11.759) mm of an"
-        " extensible Kirchhoff rod; codes with shear and rotary inertia differ by up to 1 % of the length.",
+        text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, let go from the horizontal: about two swings in"
+        " the second that is run. Tip: its distance from the clamp along the horizontal and below,"
+        " against (52.708, −11.759) mm of an extensible Kirchhoff rod; codes with shear and rotary"
+        " inertia differ by up to 1 % of the length.",
         body="rod",
         scenes=[scene],
         duration_s=1.0,
@@ -153,7 +153,8 @@ def incline() -> Case:
     return Case(
         name="incline",
         title="A block on an incline",
-        text="`incline-block` slides for a second down 60°, with a friction of 0.6. Way: against ½ g (sin α − μ cos α) t².",
+        text="`incline-block` slides for a second down 60°, with a friction of 0.6. Way: against ½ g (sin"
+        " α − μ cos α) t².",
         body="rod",
         scenes=[scene],
         duration_s=1.0,
@@ -189,9 +190,10 @@ def turn() -> Case:
     return Case(
         name="turn",
         title="A pass beside the robot, in space",
-        text="The drive passes 2, 3 and 4 mm beside the robot, 24 times, with a friction of 0.9 at rest and in motion: with the"
-        " presets' friction, which falls as a foot slides, passes branch and no step of 0.5 ms or longer is converged"
-        " (README, Speed). Stride and yaw; pose: all magnets over all time.",
+        text="The drive passes 2, 3 and 4 mm beside the robot, 24 times, with a friction of 0.9 at rest"
+        " and in motion: with the presets' friction, which falls as a foot slides, passes branch and"
+        " no step of 0.5 ms or longer is converged (README, Speed). Stride and yaw; pose: all magnets"
+        " over all time.",
         body="worm",
         scenes=[drive.scene() for drive in drives],
         duration_s=PASS_S,

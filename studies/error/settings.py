@@ -40,10 +40,14 @@ class Settings:
         wrench: Mapping[str, Any] = (
             {"solver.quadrature_order": self.order} if self.order else {"solver.magnet_model": "dipole"}
         )
-        return values | wrench | {
-            "body.elements_per_bridge": self.elements,
-            "body.elements_per_foot_end": max(1, self.elements // 4),
-        }
+        return (
+            values
+            | wrench
+            | {
+                "body.elements_per_bridge": self.elements,
+                "body.elements_per_foot_end": max(1, self.elements // 4),
+            }
+        )
 
     def text(self) -> str:
         """In words."""

@@ -1,0 +1,185 @@
+"""The page ``docs/performance.md``: everything on it follows from the data."""
+
+import statistics
+from collections.abc import Mapping, Sequence
+
+from studies.error.case import Case
+from studies.error.errors import Figure
+from studies.error.front import cost_s, pareto
+from studies.error.levels import Level
+from studies.error.measured import Row
+from studies.error.peers.cantilever import LENGTH_M
+from studies.error.pictures import PERCENT
+
+IMAGES = "images/performance"
+INTRODUCTION = """# Error against run time
+
+Written by `make study-error`; do not edit. How far from converged a step, a mesh and a quadrature are, and
+what they cost.
+
+**Errors** are those of the mean over all runs of a case, with the standard error over the runs after ±, as
+parts of the figure's size; *pose* is the root mean square distance of all followed points from where they
+should be, over points, time and runs. Along an axis one value is varied and the reference differs in that
+value alone; for the *front* the reference is converged in every value, and the line *reference* says by how
+much a coarser one differs from it, which bounds its own error.
+
+**Cost** is of one robot-second: wall time on one core with eight environments in the lanes of a vector, 32
+environments whose stiffness differs by up to 2 %, and counters that no machine changes: systems and trials
+of a solver step of eight lanes, wrenches of a drive magnet on a body magnet. Settings that no other beats
+in both error and wall time are on the front.
+
+Data: `studies/error/errors.csv`, `peers.csv`.
+"""
+LEVEL_TEXT = """## Accuracy
+
+`solver.accuracy` stands for values of a scene, which it writes:
+`Scene.preset("paper-3").with_values({"solver.accuracy": "fast"})`, or `accuracy = "fast"` under `[solver]`
+of a file that leaves them out. Errors are against the converged reference of the case; environment steps of
+20 ms are of 256 environments with random actions on all cores, median of several runs with their range. In
+space, friction that falls as a foot slides makes passes branch (README, Speed): errors there are with an
+even friction, speeds with the presets'.
+"""
+
+
+def page(
+    cases: Sequence[Case],
+    rows: Sequence[Row],
+    levels: Mapping[str, Sequence[Level]],
+    peers: Sequence[Mapping[str, str]],
+) -> str:
+    """The whole page."""
+    parts = [INTRODUCTION, LEVEL_TEXT, *(level_table(name, found) for name, found in levels.items())]
+    for case in cases:
+        parts.append(section(case, [row for row in rows if row.case == case.name]))
+        if case.name == "cantilever" and peers:
+            parts.append(peer_table(peers))
+    return "\n".join(parts)
+
+
+def percent(error: float, uncertainty: float) -> str:
+    """An error with what it leaves open."""
+    text = f"{PERCENT * error:+.2f}"
+    return f"{text} ± {PERCENT * uncertainty:.2f} %" if uncertainty else f"{text} %"
+
+
+def of_figure(figure: Figure) -> str:
+    """The same of a figure."""
+    return percent(figure.mean, figure.uncertainty)
+
+
+def table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    rows = [head, ["---"] * len(head), *lines]
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows) + "\n"
+
+
+def level_table(case: str, levels: Sequence[Level]) -> str:
+    """What the words mean for a case."""
+    names = list(levels[0].errors.figures)
+    lines = [
+        [
+            f"`{level.name}`",
+            level.settings.text(),
+            *(of_figure(level.errors.figures[name]) for name in names),
+            f"{level.errors.pose_mm:.3f} mm",
+            f"{statistics.median(level.steps_per_second):,.0f}"
+            f" ({min(level.steps_per_second):,.0f} to {max(level.steps_per_second):,.0f})",
+        ]
+        for level in levels
+    ]
+    where = {"crawl": "In the plane, `paper-3`:", "turn": "In space, `turn-3`:"}[case]
+    return f"{where}\n\n" + table(["", "stands for", *names, "pose", "environment steps/s"], lines)
+
+
+def section(case: Case, rows: Sequence[Row]) -> str:
+    """A case: figure, reference, tables."""
+    check = [row for row in rows if row.part == "check"]
+    bounds = ", ".join(f"{row.figure} {error_text(row)}" for row in check)
+    return "\n".join(
+        [
+            f"## {case.title}\n",
+            f"{case.text}\n",
+            f"Reference: {case.reference.text()}; {case.check.text()} differs by: {bounds}.\n",
+            f"![{case.title}]({IMAGES}/{case.name}.png)\n",
+            *(axis_table(name, rows) for name in dict.fromkeys(axis.name for axis in case.axes)),
+            front_table(rows),
+        ]
+    )
+
+
+def error_text(row: Row) -> str:
+    """The error of a row."""
+    return f"{row.error:.3f} mm" if row.figure == "pose" else percent(row.error, row.uncertainty)
+
+
+def axis_table(name: str, rows: Sequence[Row]) -> str:
+    """Errors along an axis."""
+    chosen = [row for row in rows if row.part == f"axis {name}"]
+    figures = list(dict.fromkeys(row.figure for row in chosen if row.figure != "broken"))
+    lines = []
+    for settings in dict.fromkeys(row.settings for row in chosen):
+        found = {row.figure: error_text(row) for row in chosen if row.settings == settings}
+        lines.append([settings.text(), *(found.get(figure, "broke down") for figure in figures)])
+    return f"Along the {name}:\n\n" + table(["settings", *figures], lines)
+
+
+def front_table(rows: Sequence[Row]) -> str:
+    """The front, with costs."""
+    front = [row for row in rows if row.part == "front" and row.work is not None]
+    figures = list(dict.fromkeys(row.figure for row in front))
+    best = pareto([row for row in front if row.figure == figures[0]])
+    lines = []
+    for chosen in best:
+        found = {row.figure: error_text(row) for row in front if row.settings == chosen.settings}
+        work = chosen.work
+        if work is None:
+            continue
+        lines.append(
+            [
+                chosen.settings.text(),
+                *(found[figure] for figure in figures),
+                f"{1.0 / cost_s(chosen):,.0f}",
+                f"{work.systems:.2f}",
+                f"{work.trials:.2f}",
+                f"{work.wrenches:,.0f}",
+            ]
+        )
+    head = [
+        "settings",
+        *figures,
+        "robot-s/s of a core",
+        "systems a step",
+        "trials",
+        "wrenches",
+    ]
+    return f"On the front, by the error of the {figures[0]}:\n\n" + table(head, lines)
+
+
+def peer_table(peers: Sequence[Mapping[str, str]]) -> str:
+    """Other codes on the cantilever."""
+    lines = [
+        [
+            f"{peer['name']} {peer['version']}",
+            peer["elements"],
+            f"{1e3 * float(peer['step_s']):.3g} ms",
+            f"{PERCENT * float(peer['error']):.2f} %",
+            f"{PERCENT * float(peer['own_error']):.2f} %",
+            f"{float(peer['wall_s']):.2f} s",
+        ]
+        for peer in peers
+    ]
+    head = [
+        "code",
+        "elements",
+        "step",
+        "distance of the tip",
+        "from its own finer mesh",
+        "wall time",
+    ]
+    return (
+        "Other codes on the same cantilever (`python -m studies.error.peers`, extra `rivals`), at their"
+        " largest stable step and half of it, clamped at the middle of the first element; distances of the"
+        f" tip are parts of the length, {1e3 * LENGTH_M:g} mm. They differ by their models as well:"
+        " PyElastica shears and thins as it stretches, MuJoCo's cable cannot stretch. So the distance from"
+        " the same code's finest mesh stands beside it.\n\n" + table(head, lines)
+    )

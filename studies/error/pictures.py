@@ -1,0 +1,85 @@
+"""Figures of the page: errors against each value that is varied, and errors against cost."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from studies.error.case import Case
+from studies.error.front import cost_s, pareto, size
+from studies.error.measured import Row
+from studies.error.settings import INTEGRATORS
+from studies.paper.figures import BLUE, INK, ORANGE, RED, TEAL, VIOLET, legend_beside, panels
+
+COLOURS = (BLUE, ORANGE, TEAL, RED, VIOLET)
+LABELS = {"step": "step [ms]", "elements": "elements", "order": "order of the quadrature, 0: dipoles"}
+PERCENT = 100.0
+
+
+def unit(figure: str) -> str:
+    """What errors of a figure are counted in."""
+    return "mm" if figure == "pose" else "%"
+
+
+def scale(figure: str) -> float:
+    """From the data to that unit."""
+    return 1.0 if figure == "pose" else PERCENT
+
+
+def value_on(axis: str, row: Row) -> float:
+    """Where a row stands on an axis."""
+    settings = row.settings
+    return {"step": settings.step_ms, "elements": settings.elements, "order": settings.order}[axis]
+
+
+def draw_case(case: Case, rows: Sequence[Row], path: Path) -> None:
+    """Errors along each axis, then errors of the first figure against cost with the front."""
+    axes_names = list(dict.fromkeys(axis.name for axis in case.axes))
+    figure, axes = panels(1, len(axes_names) + 1, (3.1 * (len(axes_names) + 1), 3.2))
+    for name, panel in zip(axes_names, axes, strict=False):
+        _draw_axis(name, [row for row in rows if row.part == f"axis {name}"], panel)
+    _draw_front([row for row in rows if row.part == "front"], axes[-1])
+    figure.savefig(path, format="png", dpi=140)
+
+
+def _draw_axis(name: str, rows: Sequence[Row], panel: Any) -> None:
+    lines: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        if row.figure != "broken":
+            lines.setdefault((row.settings.integrator, row.figure), []).append(row)
+    figures = list(dict.fromkeys(figure for _, figure in lines))
+    integrators = list(dict.fromkeys(integrator for integrator, _ in lines))
+    for (integrator, figure), line in lines.items():
+        look = ("-", ":", "--")[integrators.index(integrator)]
+        words = f"{figure} [{unit(figure)}]"
+        panel.plot(
+            [value_on(name, row) for row in line],
+            [max(scale(figure) * size(row), 1e-4) for row in line],
+            look,
+            marker="o",
+            color=COLOURS[figures.index(figure) % len(COLOURS)],
+            label=words if len(integrators) == 1 else f"{words}, {INTEGRATORS[integrator]}",
+        )
+    panel.set(xlabel=LABELS[name], ylabel="error", yscale="log")
+    if name != "order":
+        panel.set(xscale="log")
+    legend_beside(panel)
+
+
+def _draw_front(rows: Sequence[Row], panel: Any) -> None:
+    first = rows[0].figure
+    shown = [row for row in rows if row.figure == first and row.work is not None]
+    meshes = sorted({row.settings.elements for row in shown})
+    for mesh in meshes:
+        points = [row for row in shown if row.settings.elements == mesh]
+        panel.plot(
+            [1.0 / cost_s(row) for row in points],
+            [PERCENT * size(row) for row in points],
+            "o",
+            color=COLOURS[meshes.index(mesh) % len(COLOURS)],
+            label=f"{mesh} elements",
+        )
+    best = pareto(shown)
+    panel.plot([1.0 / cost_s(r) for r in best], [PERCENT * size(r) for r in best], "-", color=INK, lw=0.8)
+    panel.set(xlabel="robot-seconds per second of a core", ylabel=f"error of the {first} [%]")
+    panel.set(xscale="log", yscale="log")
+    legend_beside(panel)
