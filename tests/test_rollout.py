@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
 
-from magworm_gym import Batch, MagWormVectorEnv, Scene
+from magworm_gym import Batch, MagWormEnv, MagWormVectorEnv, Scene
 
 STEPS = 25
 TASKS = ("crawl", "turn", "reach")
@@ -151,6 +151,15 @@ def test_numbers_that_are_not_finite_are_refused_and_change_nothing() -> None:
 def test_copies_of_environments_that_are_not_there_are_refused(environments: list[int]) -> None:
     with pytest.raises(ValueError, match="allowed: "):
         Batch(Scene.preset("paper-3"), 4).copies(environments)
+
+
+def test_plans_from_a_single_environment() -> None:
+    env = MagWormEnv()
+    env.reset(seed=3)
+    actions = np.random.default_rng(0).uniform(-1.0, 1.0, (6, 9, 3))
+    rollout = env.rollout(actions)
+    rewards = [env.step(action)[1] for action in actions[:, 4]]
+    assert rewards == rollout.rewards[:, 4].tolist() and any(rewards)
 
 
 def test_a_rollout_needs_a_reset() -> None:

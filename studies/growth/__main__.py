@@ -52,11 +52,12 @@ def main() -> None:
 def sweep_rows(results: Results) -> list[list[object]]:
     """One row a point."""
     names = ["sweep", "dimensions", "environments", "threads", "nodes", "magnets", "drive_magnets"]
-    table: list[list[object]] = [[*names, "seconds", "systems", "wrenches", "broken"]]
+    table: list[list[object]] = [[*names, "wall_s", "processor_s", "systems", "wrenches", "broken"]]
     for (name, space), points in results.items():
         for of, found in points:
             sizes = [of.environments, of.threads or "all", of.nodes, of.magnets, of.drives]
-            numbers = [f"{found.seconds:.4g}", f"{found.systems:.1f}", f"{found.wrenches:.1f}", found.broken]
+            times = [f"{found.seconds:.4g}", f"{found.processor_s:.4g}"]
+            numbers = [*times, f"{found.systems:.1f}", f"{found.wrenches:.1f}", found.broken]
             table.append([name, 3 if space else 2, *sizes, *numbers])
     return table
 

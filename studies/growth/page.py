@@ -3,13 +3,16 @@
 import os
 from collections.abc import Mapping, Sequence
 
+from magworm_gym import SceneError
 from studies.growth.fit import Exponent, exponent
-from studies.growth.measure import CONTROL_STEPS, Cost, Setting
+from studies.growth.measure import CONTROL_STEPS, Cost, Setting, setting
 from studies.growth.memory import FEW, MANY, Memory
-from studies.growth.sweeps import PITCH_M, Sweep
+from studies.growth.sweeps import BEYOND, PITCH_M, Sweep
 from studies.ppo_share import ENVIRONMENTS, ROLLOUTS, Share, table
 
 PLACES = {False: "plane", True: "space"}
+WORK = {"wall": "seconds", "processor": "processor_s", "systems": "systems", "wrenches": "wrenches"}
+"""What is fitted: its name on the page, and that of the attribute."""
 
 
 Results = Mapping[tuple[str, bool], Sequence[tuple[Setting, Cost]]]
@@ -21,12 +24,14 @@ def introduction() -> str:
 
 Written by `make study-growth`; do not edit. The cost of a control step of 20 ms, ten solver steps, of
 `paper-3` (plane) and `turn-3` (space), while one thing is varied: wall time, and work counted by the
-simulator, per block of eight environments: *systems* are the linear systems with contact that were solved,
-*wrenches* those of one drive magnet on one body magnet. Each point is the least wall time of several runs of
-the same first {CONTROL_STEPS} control steps with random actions, in one call of `Batch.rollout`.
-Machine: {os.cpu_count()} cores. Exponents are those of cost ∝ size^p, by least squares on the logarithms of
-the upper half of a sweep (four points at least), with their standard error. No scene was refused: the ranges
-are those that the rules of a scene allow (1000 nodes, 32 magnets, 16 drive magnets).
+simulator, once for the eight environments of a block: *systems* are the linear systems with contact that
+were solved, *wrenches* those of one drive magnet on one body magnet. *Processor* is the time of all
+processors together, which other programs disturb less. Each time is the least of several runs of the same
+first {CONTROL_STEPS} control steps with random actions, in one call of `Batch.rollout`, on {os.cpu_count()}
+cores. Exponents are those of cost ∝ size^p, by least squares on the logarithms of the upper half of a sweep
+(four points at least), with their standard error. The ranges end where the rules of a scene do:
+
+{beyond()}
 
 ![Wall time of a control step against environments, nodes, magnets and drive magnets](images/growth.png)
 
@@ -34,6 +39,17 @@ are those that the rules of a scene allow (1000 nodes, 32 magnets, 16 drive magn
 
 Data: `studies/growth/sweeps.csv`, `studies/growth/ppo.csv`.
 """
+
+
+def beyond() -> str:
+    """What the simulator says to the first scene beyond each range."""
+    sentences = []
+    for edits in BEYOND:
+        try:
+            setting(False, edits)
+        except SceneError as refusal:
+            sentences.append(f"- {refusal}")
+    return "\n".join(sentences)
 
 
 def page(
@@ -53,7 +69,7 @@ def page(
 
 def exponents_table(sweeps: Sequence[Sweep], results: Results) -> str:
     """Fitted exponents of wall time and of counted work."""
-    work = [f"{place}: {what}" for place in PLACES.values() for what in ("time", "systems", "wrenches")]
+    work = [f"{place}: {what}" for place in PLACES.values() for what in WORK]
     lines = [f"| size | from | {' | '.join(work)} |", "| --- |" + " --- |" * (1 + len(work))]
     for sweep in sweeps:
         fits = {space: fitted(sweep, results[sweep.name, space]) for space in PLACES}
@@ -65,22 +81,20 @@ def exponents_table(sweeps: Sequence[Sweep], results: Results) -> str:
 
 
 def fitted(sweep: Sweep, points: Sequence[tuple[Setting, Cost]]) -> list[Exponent | None]:
-    """Exponents of wall time, systems and wrenches."""
-    sizes = [sweep.size(setting) for setting, _ in points]
-    columns = zip(*((cost.seconds, cost.systems, cost.wrenches) for _, cost in points), strict=True)
+    """Exponents of wall time, processor time, systems and wrenches."""
+    sizes = [sweep.size(of) for of, _ in points]
+    costs = [cost for _, cost in points]
+    columns = [[getattr(cost, name) for cost in costs] for name in WORK.values()]
     return [exponent(sizes, column) for column in columns]
 
 
 def sweep_table(sweep: Sweep, results: Results) -> str:
     """Every point of a sweep."""
-    lines = [f"| {sweep.title} | plane, ms | systems | wrenches | space, ms | systems | wrenches |"]
-    lines.append("| --- |" + " --- |" * 6)
+    heads = [f"{place}: wall, ms | processor, ms | systems | wrenches" for place in PLACES.values()]
+    lines = [f"| {sweep.title} | {' | '.join(heads)} |", "| --- |" + " --- |" * 8]
     plane, space = results[sweep.name, False], results[sweep.name, True]
-    for (setting, flat), (_, deep) in zip(plane, space, strict=True):
-        cells = [
-            f"{cost.seconds * 1e3:.3g} | {cost.systems:,.0f} | {cost.wrenches:,.0f}" for cost in (flat, deep)
-        ]
-        lines.append(f"| {sweep.size(setting):,} | {' | '.join(cells)} |")
+    for (of, flat), (_, deep) in zip(plane, space, strict=True):
+        lines.append(f"| {sweep.size(of):,} | {_costs(flat)} | {_costs(deep)} |")
     broken = sum(cost.broken for points in (plane, space) for _, cost in points)
     if broken:
         lines.append(f"\n{broken} environments broke on the way.")
@@ -113,6 +127,16 @@ def share_text(shares: list[Share]) -> str:
         " one to warm up, as `python -m studies.ppo_share` prints it. The ceiling is the same training"
         " with an environment of the same spaces that does nothing.\n\n" + table(shares)
     )
+
+
+def _costs(cost: Cost) -> str:
+    times = [_rounded(1e3 * seconds) for seconds in (cost.seconds, cost.processor_s)]
+    return " | ".join([*times, f"{cost.systems:,.0f}", f"{cost.wrenches:,.0f}"])
+
+
+def _rounded(number: float) -> str:
+    """Three digits, and no fewer than the whole number has."""
+    return f"{number:,.0f}" if number >= 100.0 else f"{number:.3g}"
 
 
 def _power(fit: Exponent | None) -> str:

@@ -16,6 +16,12 @@ PITCH_M = 0.05
 """Of the drive magnets, which are 40 mm long."""
 NODES_OF_FEET = 10
 """Nodes of three feet, so that two bridges make up the rest."""
+BEYOND = (
+    {"body.elements_per_bridge": (max(NODES) - NODES_OF_FEET) // 2 + 1},
+    {"body.magnets": max(MAGNETS) + 1},
+    {"drive.arrangement": {"kind": "belt", "pitch_m": PITCH_M, "count": max(DRIVES) + 1}},
+)
+"""The first scene beyond the range of nodes, magnets and drive magnets."""
 
 
 @dataclass(frozen=True)
