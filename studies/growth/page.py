@@ -33,12 +33,12 @@ cores. Exponents are those of cost ∝ size^p, by least squares on the logarithm
 
 {beyond()}
 
-![Wall time of a control step against environments, nodes, magnets and drive magnets](images/growth.png)
+![Time of a control step against environments, nodes, magnets and drive magnets](images/growth.png)
 
-*Wall time of a control step. Broken lines: exponent 1, through the largest size.*
+*Time of a control step: of all processors, and dotted on the wall clock. Broken lines: exponent 1, through the
+largest size.*
 
-Data: `studies/growth/sweeps.csv`, `studies/growth/ppo.csv`.
-"""
+Data: `studies/growth/sweeps.csv`, `studies/growth/ppo.csv`."""
 
 
 def beyond() -> str:
