@@ -35,8 +35,8 @@ cores. Exponents are those of cost ∝ size^p, by least squares on the logarithm
 
 ![Time of a control step against environments, nodes, magnets and drive magnets](images/growth.png)
 
-*Time of a control step: of all processors, and dotted on the wall clock. Broken lines: exponent 1, through the
-largest size.*
+*Time of a control step: of all processors, and dotted on the wall clock. Broken lines: exponent 1, through
+the largest size.*
 
 Data: `studies/growth/sweeps.csv`, `studies/growth/ppo.csv`."""
 
