@@ -24,7 +24,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map identify test bench wheel lint format docs clean install \
+.PHONY: help demo turn reach validate paper turning-map study-growth identify test bench wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
@@ -47,6 +47,9 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning
+
+study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes
+	$(VENV_PYTHON) -m studies.growth
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
 

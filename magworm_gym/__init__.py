@@ -14,6 +14,7 @@ from magworm_gym._magworm import PRESETS, Batch, Scene, SceneError, __version__
 from magworm_gym.env import MagWormEnv
 from magworm_gym.recording import Recording, record_scenes
 from magworm_gym.registration import CRAWL_ID, REACH_ID, TURN_ID, register_environments
+from magworm_gym.rollout import Rollout
 from magworm_gym.scene import load_scene
 from magworm_gym.vector_env import MagWormVectorEnv
 
@@ -26,6 +27,7 @@ __all__ = [
     "MagWormEnv",
     "MagWormVectorEnv",
     "Recording",
+    "Rollout",
     "Scene",
     "SceneError",
     "__version__",

@@ -13,6 +13,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Specification",
+    "Trajectories",
     "__version__",
     "_rebuild_batch",
     "cuboid_field",
@@ -131,6 +132,19 @@ class Batch:
         (N, O), progress towards the head in this step [m] (N,), status (N,): 0 running, others see
         status_text. Broken environments stand still until reset. Raises ValueError for a wrong
         shape or a value that is not finite, naming the environment; the state is then untouched."""
+    def rollout(
+        self, actions: NDArray[np.float64], *, observations: bool = False, magnet_poses: bool = False
+    ) -> Trajectories:
+        """T control steps in one call, bit for bit as T calls of step. actions (T, N, A) in [-1, 1],
+        clipped. Each block of lanes runs its whole trajectory in one task of the thread pool. Broken
+        environments stand still, nothing is reset. The batch is left at the end of the trajectories; to
+        leave it where it is, roll out its copies. Raises ValueError for a wrong shape or a value that is
+        not finite; the state is then untouched. Ctrl-C stops within a tenth of a second: some
+        environments have then gone further than others."""
+    def copies(self, environments: Sequence[int]) -> Batch:
+        """A batch of its own, with the same lanes and threads, whose environment k is a copy of
+        environments[k] of this one, bit for bit: state, and settings for the next reset. An environment
+        may be copied any number of times. Raises ValueError for an index outside 0 to N - 1."""
     def advance(self, duration_s: float) -> None:
         """Lets a scene whose drive is not controlled run for a whole number of solver steps."""
     def observe(self) -> NDArray[np.float32]: ...
@@ -159,6 +173,26 @@ class Batch:
     def set_state(self, state: bytes) -> None:
         """Raises ValueError for a state of another scene or size; nothing is changed then."""
     def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Trajectories:
+    """What Batch.rollout saw after each of T control steps."""
+
+    @property
+    def progress_m(self) -> NDArray[np.float64]:
+        """(T, N) [m]: progress towards the head in the control step."""
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """(T, N): as Batch.step gives it."""
+    @property
+    def robot_poses(self) -> NDArray[np.float64]:
+        """(T, N, 3): as Batch.robot_poses gives them."""
+    @property
+    def magnet_poses(self) -> NDArray[np.float64] | None:
+        """(T, N, M, 3 or 7): as Batch.magnet_poses gives them; None where they were not asked for."""
+    @property
+    def observations(self) -> NDArray[np.float32] | None:
+        """(T, N, O): as Batch.step gives them; None where they were not asked for."""
 
 def _rebuild_batch(scene: Scene, num_envs: int, lanes: str, threads: int | None, state: bytes) -> Batch:
     """Makes a batch again from what Batch.__reduce__ kept."""

@@ -15,6 +15,7 @@ from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import action_rows
 from magworm_gym.drawing import Frame
 from magworm_gym.infos import Infos, info_of
+from magworm_gym.rollout import Rollout
 from magworm_gym.vector_env import RENDER_MODES, MagWormVectorEnv, Observations
 
 
@@ -134,6 +135,13 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         row = action_rows(action, (self._components,))
         observations, rewards, terminated, truncated, infos = self._worms.step(row[np.newaxis])
         return observations[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info_of(infos, 0)
+
+    def rollout(self, actions: ArrayLike, *, observations: bool = False) -> Rollout:
+        """Plays K plans (T, K, A) of T control steps from the present state, in one call and on copies.
+
+        See :meth:`magworm_gym.MagWormVectorEnv.rollout`. This environment stays as it is.
+        """
+        return self._worms.rollout(actions, start=0, observations=observations)
 
     def render(self) -> Frame | None:
         """Returns a frame (H, W, 3), uint8, with render mode "rgb_array", else None."""

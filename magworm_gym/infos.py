@@ -13,7 +13,9 @@ Infos = dict[str, Any]
 
 def add(infos: Infos, key: str, values: NDArray[Any], mask: Flags) -> None:
     """Adds values (N, …) where mask (N,) is set; a key that holds for no environment is left out."""
-    if mask.any():
+    if key not in infos and mask.all():  # a step in which no episode ends: most of them
+        infos[key], infos[f"_{key}"] = values.copy(), mask.copy()
+    elif mask.any():
         nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
         chosen = mask.reshape(-1, *(1,) * (values.ndim - 1))
         infos[key] = np.where(chosen, values, infos.get(key, nothing))

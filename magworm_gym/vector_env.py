@@ -19,8 +19,10 @@ from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
 from magworm_gym.drawing import Drawing, Frame
 from magworm_gym.draws import next_episodes, uniform
-from magworm_gym.infos import Flags, Infos, add, reasons, rows
+from magworm_gym.infos import Flags, Infos, add, rows
+from magworm_gym.outcome import judged, step_infos
 from magworm_gym.reset_options import equip, read_options, start_limits
+from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import load_scene
 from magworm_gym.spaces import AnyPart, box, layout
 from magworm_gym.tasks import Task, task_named
@@ -120,9 +122,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             "render_fps": round(1.0 / scene.control_step_s),
             "autoreset_mode": self._autoreset,
         }
-        limit = (
-            round(scene.episode_s / scene.control_step_s) if max_episode_steps is None else max_episode_steps
-        )
+        of_scene = round(scene.episode_s / scene.control_step_s)
+        limit = of_scene if max_episode_steps is None else max_episode_steps
         self._max_episode_steps = positive("max_episode_steps", limit)
 
         observed = self._batch.observation_specification
@@ -137,9 +138,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self._episodes = np.full(self.num_envs, -1, np.int64)  # -1: never reset
         self._elapsed_steps = np.zeros(self.num_envs, np.int64)
         self._ended = np.zeros(self.num_envs, np.bool_)
-        self._starts = np.full(
-            (self.num_envs, len(start_limits(scene.dimensions))), np.nan
-        )  # NaN: the scene's
+        columns = len(start_limits(scene.dimensions))
+        self._starts = np.full((self.num_envs, columns), np.nan)  # NaN: the scene's
         goal = self._task.goal_option
         self._goals = np.full((self.num_envs, 0 if goal is None else goal.size), np.nan)  # NaN: drawn
 
@@ -234,44 +234,48 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         resetting = self._due_to_reset()
         stepping = ~resetting
         simulated, progress_m, status = self._advance(values, resetting)
+        self._elapsed_steps += stepping
         verdict = self._task.judge(self._batch, progress_m, stepping)
         observations = self._observe(simulated)
-        broken = stepping & (status != 0)
-        sound = stepping & ~broken
-        self._elapsed_steps += stepping
-        terminated = sound & verdict.terminated
-        timed_out = sound & ~terminated & (self._elapsed_steps >= self._max_episode_steps)
-        truncated = broken | timed_out
-        ended = terminated | truncated
-        rewards = np.where(sound, verdict.rewards, 0.0)
-        time_s = self._batch.time_s()
-
-        def step_infos(mask: Flags) -> Infos:
-            infos: Infos = {}
-            add(infos, "progress_m", progress_m, mask)
-            add(infos, "time_s", time_s, mask)
-            for key, told in verdict.infos.items():
-                add(infos, key, told, mask)
-            add(infos, "time_limit", timed_out, mask & ended)
-            if verdict.success is not None:
-                add(infos, "is_success", verdict.success & ~broken, mask & ended)
-            if broken.any():
-                add(infos, "broken", reasons(status), mask & broken)
-            return infos
-
+        outcome = judged(verdict, status, stepping, self._elapsed_steps >= self._max_episode_steps)
+        ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
         same_step = self._autoreset is AutoresetMode.SAME_STEP
         starting = ended if same_step else resetting
-        infos = step_infos(stepping & ~starting)
+        infos = step_infos(outcome, seen, stepping & ~starting)
         if starting.any():
             if same_step:
                 add(infos, "final_obs", rows(observations), starting)
-                infos["final_info"], infos["_final_info"] = step_infos(starting), starting.copy()
+                infos |= {"final_info": step_infos(outcome, seen, starting), "_final_info": starting.copy()}
             self._start_episodes(starting, self._episodes + 1)
             observations = self._observe()
             self._add_reset_infos(infos, starting)
-        self._ended = np.zeros_like(ended) if same_step else ended.copy()
+        self._ended = np.zeros_like(ended) if same_step else ended
         self._show()
-        return observations, rewards, terminated, truncated, infos
+        return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
+
+    def rollout(
+        self,
+        actions: ArrayLike,
+        *,
+        start: int | Sequence[int] | NDArray[Any] | None = None,
+        observations: bool = False,
+    ) -> Rollout:
+        """Plays K plans of T control steps from the present states, in one call and on copies.
+
+        Rewards and ends are bit for bit those of :meth:`step`. These environments stay as they are.
+
+        Args:
+            actions: (T, K, A), finite; values outside [-1, 1] are clipped.
+            start: The environment whose state a plan starts from: one for all, or one for each plan (K,);
+                None: plan k starts from environment k, and K is N.
+            observations: Whether observations are kept.
+
+        Raises:
+            ValueError: Actions or starts of a wrong shape or value.
+            ResetNeeded: An environment to start from was never reset.
+        """
+        origin = Origin(self._batch, self._task, self._episodes, self._ended, self._elapsed_steps)
+        return roll_out(origin, self._max_episode_steps, actions, start, observations)
 
     def render(self) -> tuple[Frame, ...] | None:
         """Draws the environments `render_envs`.

@@ -7,6 +7,7 @@ import pytest
 
 from magworm_gym import Batch, Scene
 from magworm_gym.baselines import (
+    OpenLoop,
     PeriodicStrokes,
     SearchSettings,
     Shuttle,
@@ -117,6 +118,22 @@ def test_stroke_repeats_and_interpolates(scene: Scene) -> None:
     np.testing.assert_allclose(actions[4, 0], points[1], atol=1e-12)
     with pytest.raises(ValueError, match="3 strokes do not fit 2"):
         PeriodicStrokes([Stroke(0.16, points)] * 3).start(batch)
+
+
+def test_a_speed_measured_in_one_call_is_that_of_stepping(scene: Scene) -> None:
+    class Stepped:
+        """The same strokes, one action at a time."""
+
+        def __init__(self, strokes: PeriodicStrokes) -> None:
+            self.start, self.act = strokes.start, strokes.act
+
+    units = np.random.default_rng(0).uniform(-1.0, 1.0, (11, 13))
+    strokes, seeds = [stroke_from_unit(unit) for unit in units], np.arange(11, dtype=np.uint64)
+    planned, stepped = PeriodicStrokes(strokes), Stepped(PeriodicStrokes(strokes))
+    assert isinstance(planned, OpenLoop) and not isinstance(stepped, OpenLoop)
+    speeds = [crawl_speed_m_s(Batch(scene, 11), SHORT, seeds, drive) for drive in (planned, stepped)]
+    assert np.count_nonzero(speeds[0]) > 5
+    np.testing.assert_array_equal(*speeds)
 
 
 def test_stroke_from_optimiser_coordinates() -> None:

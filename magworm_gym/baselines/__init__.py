@@ -8,7 +8,7 @@
 """
 
 from magworm_gym.baselines.belt import PAPER_PITCHES_M, BeltCurve, belt_scene, belt_starts, sweep_belt
-from magworm_gym.baselines.controller import Controller, Still, UniformlyRandom
+from magworm_gym.baselines.controller import Controller, OpenLoop, Still, UniformlyRandom
 from magworm_gym.baselines.search import SearchResult, SearchSettings, search_stroke
 from magworm_gym.baselines.shuttle import Shuttle, ShuttleCurve, sweep_shuttle
 from magworm_gym.baselines.stroke import PeriodicStrokes, Stroke, stroke_from_unit
@@ -20,6 +20,7 @@ __all__ = [
     "PAPER_PITCHES_M",
     "BeltCurve",
     "Controller",
+    "OpenLoop",
     "PeriodicStrokes",
     "Recording",
     "SearchResult",

@@ -1,6 +1,6 @@
 """What a controller is, and the two simplest ones."""
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,14 @@ class Controller(Protocol):
 
     def act(self, batch: Batch) -> Floats:
         """Actions (N, A) of the next control step."""
+
+
+@runtime_checkable
+class OpenLoop(Controller, Protocol):
+    """A controller that is blind to what the robot does, so that its actions are known beforehand."""
+
+    def plan(self, batch: Batch, steps: int) -> Floats:
+        """Actions (T, N, A) of the next control steps; the same that as many calls of ``act`` give."""
 
 
 class Still:

@@ -75,11 +75,15 @@ class PeriodicStrokes:
 
     def act(self, batch: Batch) -> Floats:
         """Actions (N, 3) at the time since ``start``."""
-        place = self._steps * batch.scene.control_step_s / self._period_s % 1.0
-        self._steps += 1
-        place *= self._points.shape[1] - 1
+        return np.asarray(self.plan(batch, 1)[0])
+
+    def plan(self, batch: Batch, steps: int) -> Floats:
+        """Actions (T, N, 3) of the next control steps."""
+        time_s = (self._steps + np.arange(steps))[:, None] * batch.scene.control_step_s
+        self._steps += steps
+        place = time_s / self._period_s % 1.0 * (self._points.shape[1] - 1)
         before = np.minimum(place.astype(np.int64), self._points.shape[1] - 2)
-        share = (place - before)[:, None]
-        every = np.arange(len(place))
+        share = (place - before)[..., None]
+        every = np.arange(len(self._period_s))
         actions = (1.0 - share) * self._points[every, before] + share * self._points[every, before + 1]
-        return np.array(np.broadcast_to(actions, (batch.num_envs, 3)))
+        return np.array(np.broadcast_to(actions, (steps, batch.num_envs, 3)))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch
-from magworm_gym.baselines.controller import Controller
+from magworm_gym.baselines.controller import Controller, OpenLoop
 from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
@@ -126,8 +126,12 @@ def _step(batch: Batch, controller: Controller | None) -> None:
 def _run(batch: Batch, controller: Controller | None, duration_s: float) -> None:
     """Runs for the whole number of control steps next to a duration [s]."""
     steps = round(duration_s / batch.scene.control_step_s)
-    if controller is None and steps:
-        batch.advance(steps * batch.scene.control_step_s)
+    if not steps:
         return
-    for _ in range(steps):
-        _step(batch, controller)
+    if controller is None:
+        batch.advance(steps * batch.scene.control_step_s)
+    elif isinstance(controller, OpenLoop):
+        batch.rollout(controller.plan(batch, steps))
+    else:
+        for _ in range(steps):
+            _step(batch, controller)

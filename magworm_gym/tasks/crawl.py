@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from magworm_gym._magworm import Batch
-from magworm_gym.tasks.task import MM_PER_M, Flags, Floats, Task, Verdict
+from magworm_gym.tasks.task import MM_PER_M, Flags, Floats, Seen, Task, Verdict
 
 
 class Crawl(Task):
@@ -15,6 +14,6 @@ class Crawl(Task):
     name = "crawl"
     default_scene = "paper-3"
 
-    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
         """See the class."""
         return Verdict(MM_PER_M * progress_m, np.zeros(len(mask), np.bool_))

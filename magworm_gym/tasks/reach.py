@@ -15,6 +15,7 @@ from magworm_gym.tasks.task import (
     Floats,
     Goal,
     GoalOption,
+    Seen,
     Task,
     Verdict,
     metres,
@@ -68,7 +69,7 @@ class Reach(Task):
         self.state["goal_m"] = np.where(mask[:, None], goal_m, self.state["goal_m"])
         self.state["distance_m"] = np.where(mask, self._distance_m(poses), self.state["distance_m"])
 
-    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
         """See the class."""
         before = self.state["distance_m"]
         distance = np.where(mask, self._distance_m(batch.robot_poses()), before)
@@ -76,7 +77,7 @@ class Reach(Task):
         reached = distance <= TOLERANCE_M
         return Verdict(MM_PER_M * (before - distance), reached, reached, {"distance_m": distance})
 
-    def observe(self, batch: Batch) -> Floats:
+    def observe(self, batch: Seen) -> Floats:
         """See the class."""
         poses = batch.robot_poses()
         x, z = (self.state["goal_m"] - poses[:, :2]).T.copy()

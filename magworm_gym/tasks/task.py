@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ from magworm_gym.spaces import Part
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+
+AnyTask = TypeVar("AnyTask", bound="Task")
 
 MM_PER_M = 1000.0
 
@@ -65,6 +68,23 @@ class Verdict:
     infos: dict[str, NDArray[Any]] = field(default_factory=dict)
 
 
+class Seen(Protocol):
+    """What a task is judged by: a batch, or an instant of a rollout of one."""
+
+    @property
+    def num_envs(self) -> int:
+        """Number of environments N."""
+
+    def robot_poses(self) -> Floats:
+        """As :meth:`Batch.robot_poses`."""
+
+    def magnet_poses(self) -> Floats:
+        """As :meth:`Batch.magnet_poses`."""
+
+    def magnets_present(self) -> Flags:
+        """As :meth:`Batch.magnets_present`."""
+
+
 class Task(ABC):
     """What is asked of N environments of a scene: goals, what is told of them, rewards and ends.
 
@@ -88,6 +108,8 @@ class Task(ABC):
     goal_option: ClassVar[GoalOption | None] = None
     draws: ClassVar[int] = 0
     """How many random numbers a goal takes."""
+    judges_magnets: ClassVar[bool] = False
+    """Whether it looks at the poses of single magnets."""
 
     parts: tuple[Part, ...] = ()
     """What the task appends to an observation."""
@@ -112,7 +134,7 @@ class Task(ABC):
         """
 
     @abstractmethod
-    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
         """Judges the control step just done.
 
         Args:
@@ -121,13 +143,19 @@ class Task(ABC):
             mask: The environments that stepped (N,): the others keep their state, their verdict is not used.
         """
 
-    def observe(self, batch: Batch) -> Floats:
+    def observe(self, batch: Seen) -> Floats:
         """What the task appends to the observations (N, size of :attr:`parts`)."""
         return np.zeros((batch.num_envs, 0))
 
     def reset_infos(self) -> dict[str, NDArray[Any]]:
         """Arrays (N, …) that the infos of a reset get, by key."""
         return {}
+
+    def copies(self: AnyTask, environments: NDArray[np.int64]) -> AnyTask:
+        """A task of its own whose environment k is a copy of ``environments[k]`` (K,) of this one."""
+        task = copy(self)
+        task.state = {name: values[environments] for name, values in self.state.items()}
+        return task
 
     def goal(self, i: int) -> Goal | None:
         """The goal of environment i, to be drawn; None without one."""

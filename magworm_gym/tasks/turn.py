@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch, Scene, Specification
 from magworm_gym.spaces import Part
-from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Task, Verdict
+from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Seen, Task, Verdict
 
 GREATEST_GOAL_DEG = 90.0
 """Goals are drawn up to this angle to either side of the heading at the start."""
@@ -40,6 +40,7 @@ class Turn(Task):
     name = "turn"
     goal_option = GoalOption("goal_deg", (), 180.0)
     draws = 1
+    judges_magnets = True
     parts = (
         Part("goal_direction", "1", 2, -1.0, 1.0, "cosine and sine of the goal's heading from the robot's"),
         Part("heading_error", "π rad", 1, -np.inf, np.inf, "goal − heading, whole turns counted"),
@@ -61,7 +62,7 @@ class Turn(Task):
         self.state["heading_rad"] = np.where(mask, heading, self.state["heading_rad"])
         self.state["goal_rad"] = np.where(mask, heading + np.deg2rad(turn_deg), self.state["goal_rad"])
 
-    def judge(self, batch: Batch, progress_m: Floats, mask: Flags) -> Verdict:
+    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
         """See the class."""
         before = np.abs(np.rad2deg(self.error_rad))
         change = batch.robot_poses()[:, 2] - self.state["heading_rad"]
@@ -78,7 +79,7 @@ class Turn(Task):
             infos={"heading_rad": heading, "heading_error_rad": self.error_rad, "roll_rad": roll},
         )
 
-    def observe(self, batch: Batch) -> Floats:
+    def observe(self, batch: Seen) -> Floats:
         """See the class."""
         error = self.error_rad
         return np.stack([np.cos(error), np.sin(error), error / np.pi], axis=1)
@@ -97,7 +98,7 @@ def _within_half_turn(angle_rad: Floats) -> Floats:
     return angle_rad - 2.0 * np.pi * np.round(angle_rad / (2.0 * np.pi))
 
 
-def _furthest_roll(batch: Batch) -> tuple[Floats, Flags]:
+def _furthest_roll(batch: Seen) -> tuple[Floats, Flags]:
     """The greatest roll of the magnets in place (N,) [rad], and whether one of them is upside down (N,).
 
     Roll is about the magnet's own tangent, positive where its up leans towards its side.

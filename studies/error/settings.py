@@ -1,6 +1,5 @@
 """What is varied: integrator, step, mesh and wrench."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,17 +36,13 @@ class Settings:
         }
         if body == "rod":
             return values | {"body.elements": self.elements}
-        wrench: Mapping[str, Any] = (
-            {"solver.quadrature_order": self.order} if self.order else {"solver.magnet_model": "dipole"}
-        )
-        return (
-            values
-            | wrench
-            | {
-                "body.elements_per_bridge": self.elements,
-                "body.elements_per_foot_end": max(1, self.elements // 4),
-            }
-        )
+        if self.order:
+            values["solver.quadrature_order"] = self.order
+        else:
+            values["solver.magnet_model"] = "dipole"
+        values["body.elements_per_bridge"] = self.elements
+        values["body.elements_per_foot_end"] = max(1, self.elements // 4)
+        return values
 
     def text(self) -> str:
         """In words."""

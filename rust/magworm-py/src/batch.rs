@@ -2,7 +2,9 @@
 
 use crate::arrays::read;
 use crate::errors::value_error;
+use crate::rollout::{Trajectories, rollout};
 use crate::scene::Scene;
+use crate::specification::specifications;
 use magworm::model::Model;
 use magworm::observe;
 use magworm::reset::StartPose;
@@ -11,32 +13,6 @@ use magworm::state::{self, LaneChoice, Status, StepOutput, View};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-
-/// One named slice of an observation or action row.
-#[pyclass(module = "magworm_gym._magworm", frozen, get_all)]
-#[derive(Clone)]
-pub struct Specification {
-    name: &'static str,
-    unit: String,
-    size: usize,
-    low: f64,
-    high: f64,
-    description: &'static str,
-}
-
-impl From<observe::Specification> for Specification {
-    fn from(s: observe::Specification) -> Self {
-        let observe::Specification { name, unit, size, low, high, description } = s;
-        Self { name, unit, size, low, high, description }
-    }
-}
-
-#[pymethods]
-impl Specification {
-    fn __repr__(&self) -> String {
-        format!("Specification({}: {} × {}, {})", self.name, self.size, self.unit, self.description)
-    }
-}
 
 /// N environments of one scene, advanced together.
 #[pyclass(module = "magworm_gym._magworm")]
@@ -192,6 +168,35 @@ impl Batch {
         });
         let observation = observation.into_pyarray(py).reshape([count, width])?;
         Ok((observation, progress_m.into_pyarray(py), status.into_pyarray(py)))
+    }
+
+    #[pyo3(signature = (actions, *, observations = false, magnet_poses = false))]
+    fn rollout<'py>(
+        &mut self,
+        py: Python<'py>,
+        actions: PyReadonlyArrayDyn<'py, f64>,
+        observations: bool,
+        magnet_poses: bool,
+    ) -> PyResult<Trajectories> {
+        rollout(py, &mut self.batch, &actions, observations, magnet_poses)
+    }
+
+    fn copies(&self, py: Python<'_>, environments: Vec<i64>) -> PyResult<Self> {
+        let count = self.batch.count();
+        if environments.is_empty() {
+            return Err(value_error("environments is empty; allowed: one index or more"));
+        }
+        let inside = |&environment: &i64| usize::try_from(environment).ok().filter(|&e| e < count);
+        let chosen: Option<Vec<usize>> = environments.iter().map(inside).collect();
+        let Some(chosen) = chosen else {
+            let (k, bad) =
+                (0..).zip(&environments).find(|(_, e)| inside(e).is_none()).unwrap_or((0, &0));
+            return Err(value_error(format!(
+                "environment of copy {k} is {bad}; allowed: 0 to {}",
+                count - 1
+            )));
+        };
+        Ok(Self { batch: py.detach(|| self.batch.copies(&chosen)), threads: self.threads })
     }
 
     fn advance(&mut self, py: Python<'_>, duration_s: f64) -> PyResult<()> {
@@ -352,15 +357,6 @@ pub fn _rebuild_batch(
     let mut batch = Batch::new(scene, num_envs, lanes, threads)?;
     batch.set_state(state)?;
     Ok(batch)
-}
-
-fn specifications(
-    py: Python<'_>,
-    slices: Vec<observe::Specification>,
-) -> PyResult<Bound<'_, PyAny>> {
-    let slices = slices.into_iter().map(|s| Py::new(py, Specification::from(s)));
-    let slices = slices.collect::<PyResult<Vec<_>>>()?;
-    Ok(pyo3::types::PyTuple::new(py, slices)?.into_any())
 }
 
 fn parameter_column(name: &str) -> PyResult<usize> {

@@ -5,7 +5,9 @@ mod batch;
 mod errors;
 mod magnet;
 mod record;
+mod rollout;
 mod scene;
+mod specification;
 
 use pyo3::prelude::*;
 
@@ -13,7 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _magworm {
     #[pymodule_export]
-    use crate::batch::{_rebuild_batch, Batch, Specification};
+    use crate::batch::{_rebuild_batch, Batch};
     #[pymodule_export]
     use crate::errors::SceneError;
     #[pymodule_export]
@@ -21,7 +23,11 @@ mod _magworm {
     #[pymodule_export]
     use crate::record::record_scenes;
     #[pymodule_export]
+    use crate::rollout::Trajectories;
+    #[pymodule_export]
     use crate::scene::Scene;
+    #[pymodule_export]
+    use crate::specification::Specification;
 
     use pyo3::prelude::*;
     use pyo3::types::PyTuple;

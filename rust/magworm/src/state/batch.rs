@@ -1,14 +1,14 @@
 //! A batch: many environments of one model, stepped together on all cores.
 
 use super::block::{Block, Counters, Status};
+use super::control::{ControlRows, Steps, control_block};
 use super::pool::Pool;
+use super::rollout::{Plan, RolloutOutput, rollout};
 use super::view::View;
-use crate::lanes::math::sin_cos;
-use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
+use crate::lanes::WIDE;
 use crate::model::Model;
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
-use crate::step::{advance, command};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::sync::Arc;
@@ -144,6 +144,24 @@ impl Batch {
         with_blocks!(&mut self.blocks, blocks => control_step(&model, blocks, pool, actions, output));
     }
 
+    /// The control steps of a plan, one after the other, in one call: bit for bit what as many calls of
+    /// [`step`](Self::step) give. `interrupted` is asked every few hundredths of a second whether to stop.
+    ///
+    /// Returns whether the plan was run to its end. Where it was not, some environments have gone further than
+    /// others.
+    pub fn rollout(
+        &mut self,
+        plan: Plan<'_>,
+        output: RolloutOutput<'_>,
+        interrupted: &mut dyn FnMut() -> bool,
+    ) -> bool {
+        let model = Arc::clone(&self.model);
+        let (count, pool) = (self.count, self.pool.get());
+        with_blocks!(&mut self.blocks, blocks => {
+            rollout(&model, blocks, count, pool, plan, output, interrupted)
+        })
+    }
+
     /// `steps` solver steps without new actions.
     pub fn advance(&mut self, steps: u32) {
         let model = Arc::clone(&self.model);
@@ -196,38 +214,6 @@ impl Batch {
     }
 }
 
-/// A block that knows how to step itself.
-trait Steps: Send {
-    fn run(&mut self, model: &Model, steps: u32);
-}
-
-impl Steps for Block<1> {
-    fn run(&mut self, model: &Model, steps: u32) {
-        advance(Scalar, model, self, steps);
-    }
-}
-
-impl Steps for Block<WIDE> {
-    fn run(&mut self, model: &Model, steps: u32) {
-        self.advance_on(InstructionSet::widest(), model, steps);
-    }
-}
-
-impl Block<WIDE> {
-    /// `steps` solver steps on an instruction set of this processor; the bits are those of any other.
-    pub fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32) {
-        struct Task<'a>(&'a Model, &'a mut Block<WIDE>, u32);
-        impl WideTask for Task<'_> {
-            type Output = ();
-            #[inline(always)]
-            fn run<I: Isa<WIDE>>(self, isa: I) {
-                advance(isa, self.0, self.1, self.2);
-            }
-        }
-        run_wide_on(set, Task(model, self, steps));
-    }
-}
-
 fn new_blocks<const W: usize>(model: &Model, count: usize) -> Vec<Block<W>> {
     (0..count.div_ceil(W)).map(|_| Block::new(model)).collect()
 }
@@ -265,7 +251,7 @@ fn control_step<const W: usize>(
     Block<W>: Steps,
 {
     let width = observe::size(model);
-    let work = |first: usize, block: &mut Block<W>, rows: BlockOutput<'_>| {
+    let work = |first: usize, block: &mut Block<W>, rows: ControlRows<'_>| {
         control_block(model, block, first, actions, rows);
     };
     match pool {
@@ -273,7 +259,7 @@ fn control_step<const W: usize>(
             let rows = output.observation.chunks_mut(W * width);
             let rows = rows.zip(output.progress_m.chunks_mut(W)).zip(output.status.chunks_mut(W));
             for (index, (block, rows)) in blocks.iter_mut().zip(rows).enumerate() {
-                work(index * W, block, BlockOutput::new(rows));
+                work(index * W, block, ControlRows::new(rows));
             }
         }
         Some(pool) => pool.install(|| {
@@ -281,60 +267,8 @@ fn control_step<const W: usize>(
             let rows =
                 rows.zip(output.progress_m.par_chunks_mut(W)).zip(output.status.par_chunks_mut(W));
             blocks.par_chunks_mut(1).zip(rows).enumerate().for_each(|(index, (block, rows))| {
-                work(index * W, &mut block[0], BlockOutput::new(rows));
+                work(index * W, &mut block[0], ControlRows::new(rows));
             });
         }),
-    }
-}
-
-/// How far the centre has moved towards where the head was.
-fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
-    if heading == 0.0 {
-        return x - next_x;
-    }
-    let (sin, cos) = sin_cos(heading);
-    (x - next_x) * cos - (z - next_z) * sin
-}
-
-struct BlockOutput<'a> {
-    observation: &'a mut [f32],
-    progress_m: &'a mut [f64],
-    status: &'a mut [u8],
-}
-
-impl<'a> BlockOutput<'a> {
-    fn new(
-        ((observation, progress_m), status): ((&'a mut [f32], &'a mut [f64]), &'a mut [u8]),
-    ) -> Self {
-        Self { observation, progress_m, status }
-    }
-}
-
-fn control_block<const W: usize>(
-    model: &Model,
-    block: &mut Block<W>,
-    first: usize,
-    actions: &[f64],
-    rows: BlockOutput<'_>,
-) where
-    Block<W>: Steps,
-{
-    let count = rows.status.len();
-    if let Some(drive) = model.program.drive.as_ref().filter(|d| d.is_controlled()) {
-        let size = observe::action_size(model);
-        for lane in 0..count {
-            if block.status[lane] == Status::Running {
-                let action = &actions[size * (first + lane)..][..size];
-                command(model, drive, block, lane, action);
-            }
-        }
-    }
-    let before: [[f64; 3]; W] = std::array::from_fn(|lane| block.robot_pose(model, lane));
-    block.run(model, model.steps_per_control);
-    let width = observe::size(model);
-    for lane in 0..count {
-        rows.progress_m[lane] = progress_m(before[lane], block.robot_pose(model, lane));
-        rows.status[lane] = block.status[lane] as u8;
-        observe::write(model, block, lane, &mut rows.observation[lane * width..][..width]);
     }
 }

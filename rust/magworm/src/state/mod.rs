@@ -2,8 +2,10 @@
 
 mod batch;
 mod block;
+mod control;
 mod pool;
 mod pose;
+mod rollout;
 mod rows;
 mod snapshot;
 mod view;
@@ -12,6 +14,7 @@ pub use batch::{Batch, LaneChoice, StepOutput};
 pub use block::{Block, Counters, Status};
 pub(crate) use pool::Pool;
 pub use pose::{Pose, Twist};
+pub use rollout::{Plan, RolloutOutput};
 pub use rows::Rows;
 pub use snapshot::SnapshotError;
 pub use view::View;

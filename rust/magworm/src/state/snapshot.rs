@@ -8,6 +8,7 @@ use super::batch::Batch;
 use super::block::{Block, Status};
 use crate::model::Model;
 use crate::reset::apply_parameters;
+use std::sync::Arc;
 
 const MAGIC: &[u8; 8] = b"MAGWORM1";
 const HEADER: usize = 8 + 3 * 8;
@@ -82,6 +83,23 @@ impl Batch {
             self.read_column(environment, &column[..size - settings]);
         }
         Ok(())
+    }
+
+    /// A batch of its own, as this one in lanes and threads, whose environment k is a copy of `environments[k]`: its
+    /// state and its settings for the next reset, bit for bit.
+    pub fn copies(&self, environments: &[usize]) -> Self {
+        let model = Arc::clone(self.model());
+        let mut batch = Self::new(model, environments.len(), self.lanes(), Some(self.threads()));
+        let mut bytes = Vec::new();
+        for (copy, &environment) in environments.iter().enumerate() {
+            bytes.clear();
+            self.write_column(environment, &mut bytes);
+            let state = bytes.len();
+            self.write_settings(environment, &mut bytes);
+            batch.read_column(copy, &bytes[..state]);
+            batch.read_settings(copy, &bytes[state..]);
+        }
+        batch
     }
 
     fn column_bytes(&self) -> usize {

@@ -1,0 +1,74 @@
+"""What a control step came to: rewards, ends and infos, of a step as of a rollout."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.infos import Flags, Infos, add, reasons
+from magworm_gym.tasks import Verdict
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Of one control step of N environments.
+
+    Attributes:
+        rewards: (N,); 0 where a worm broke or did not step.
+        terminated: Whether the task is over (N,).
+        timed_out: Whether the episode ended by the time limit (N,).
+        broken: Whether the simulation broke in an episode that was going on (N,).
+        status: Codes of the simulator (N,).
+        verdict: What the task made of it.
+    """
+
+    rewards: Floats
+    terminated: Flags
+    timed_out: Flags
+    broken: Flags
+    status: NDArray[np.uint8]
+    verdict: Verdict
+
+    @property
+    def truncated(self) -> Flags:
+        """By the time limit, or since the simulation broke (N,)."""
+        return self.broken | self.timed_out
+
+    @property
+    def ended(self) -> Flags:
+        """Whether the episode ended (N,)."""
+        return self.terminated | self.truncated
+
+
+def judged(verdict: Verdict, status: NDArray[np.uint8], stepping: Flags, at_limit: Flags) -> Outcome:
+    """Brings the task's verdict together with what the simulator and the clock say.
+
+    Args:
+        verdict: The task's.
+        status: Codes of the simulator (N,).
+        stepping: Environments in whose episode the step was (N,).
+        at_limit: Episodes as long as they may be (N,).
+    """
+    broken = stepping & (status != 0)
+    sound = stepping & ~broken
+    terminated = sound & verdict.terminated
+    timed_out = sound & ~terminated & at_limit
+    rewards = np.where(sound, verdict.rewards, 0.0)
+    return Outcome(rewards, terminated, timed_out, broken, status, verdict)
+
+
+def step_infos(outcome: Outcome, seen: Mapping[str, Floats], mask: Flags) -> Infos:
+    """Infos of the environments of mask (N,): what was seen, what the task adds, how episodes ended."""
+    infos: Infos = {}
+    for key, values in (*seen.items(), *outcome.verdict.infos.items()):
+        add(infos, key, values, mask)
+    ended = mask & outcome.ended
+    add(infos, "time_limit", outcome.timed_out, ended)
+    if outcome.verdict.success is not None:
+        add(infos, "is_success", outcome.verdict.success & ~outcome.broken, ended)
+    if outcome.broken.any():
+        add(infos, "broken", reasons(outcome.status), mask & outcome.broken)
+    return infos

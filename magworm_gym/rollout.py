@@ -1,0 +1,164 @@
+"""Whole trajectories from the present states of environments: for planning and searches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from gymnasium.error import ResetNeeded
+from numpy.typing import ArrayLike, NDArray
+
+from magworm_gym._magworm import Batch, Trajectories
+from magworm_gym.arguments import action_rows
+from magworm_gym.outcome import judged
+from magworm_gym.tasks import Task
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """What came of K plans of T control steps; row t is what a step with action t gives.
+
+    Nothing is reset. After the end of its episode (task over, time limit, broken, or ended before) a plan
+    gets no more rewards, and both flags are False; a worm that broke stands still, others are simulated on.
+
+    Attributes:
+        rewards: (T, K).
+        terminated: (T, K).
+        truncated: (T, K).
+        progress_m: Progress towards the head in the control step (T, K) [m].
+        status: (T, K): 0 running, others see :meth:`Batch.status_text`.
+        robot_poses: (T, K, 3): x, z of the robot's centre [m] and its heading [rad].
+        observations: (T, K, O) float32; None where they were not asked for.
+        batch: The K environments at the end, to read poses from or to go on with.
+    """
+
+    rewards: Floats
+    terminated: Flags
+    truncated: Flags
+    progress_m: Floats
+    status: NDArray[np.uint8]
+    robot_poses: Floats
+    observations: NDArray[np.float32] | None
+    batch: Batch
+
+    @property
+    def returns(self) -> Floats:
+        """Sum of the rewards of each plan (K,)."""
+        return np.asarray(self.rewards.sum(axis=0))
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The environments that plans start from.
+
+    Attributes:
+        batch: Their simulation.
+        task: What is asked of them.
+        episodes: Numbers of their episodes (N,), -1 before the first reset.
+        ended: Whether the episode has ended (N,).
+        elapsed_steps: Control steps of the episode (N,).
+    """
+
+    batch: Batch
+    task: Task
+    episodes: NDArray[np.int64]
+    ended: Flags
+    elapsed_steps: NDArray[np.int64]
+
+    def environments(self, start: int | Sequence[int] | NDArray[Any] | None, plans: int) -> NDArray[np.int64]:
+        """The environment that each plan starts from (K,).
+
+        Raises:
+            ValueError: `start` does not fit.
+            ResetNeeded: One of them was never reset.
+        """
+        count = self.batch.num_envs
+        if start is None:
+            if plans != count:
+                raise ValueError(
+                    f"actions have {plans} plans for {count} environments; start must name where they begin"
+                )
+            start = range(count)
+        chosen = np.asarray(start)
+        if chosen.dtype.kind not in "iu" or chosen.shape not in ((), (plans,)):
+            raise ValueError(f"start is {start!r}; it must be one index, or one for each plan ({plans})")
+        if ((chosen < 0) | (chosen >= count)).any():
+            raise ValueError(f"start is {start!r}; allowed: indices from 0 to {count - 1}")
+        if (self.episodes[chosen] < 0).any():
+            raise ResetNeeded("an environment to start from was never reset: call reset() before rollout()")
+        return np.broadcast_to(chosen, plans).astype(np.int64)
+
+
+@dataclass(frozen=True)
+class Instant:
+    """What a task is judged by, after one control step of a rollout."""
+
+    robots: Floats
+    magnets: Floats | None
+    present: Flags
+
+    @property
+    def num_envs(self) -> int:
+        """Number of plans K."""
+        return len(self.robots)
+
+    def robot_poses(self) -> Floats:
+        """As :meth:`Batch.robot_poses`."""
+        return self.robots
+
+    def magnet_poses(self) -> Floats:
+        """As :meth:`Batch.magnet_poses`."""
+        assert self.magnets is not None, "a task that judges magnets declares it"
+        return self.magnets
+
+    def magnets_present(self) -> Flags:
+        """As :meth:`Batch.magnets_present`."""
+        return self.present
+
+
+def roll_out(
+    origin: Origin,
+    max_episode_steps: int,
+    actions: ArrayLike,
+    start: int | Sequence[int] | NDArray[Any] | None,
+    observations: bool,
+) -> Rollout:
+    """See :meth:`magworm_gym.MagWormVectorEnv.rollout`."""
+    shape = np.shape(actions)
+    size = sum(part.size for part in origin.batch.action_specification)
+    if len(shape) != 3 or 0 in shape[:2]:
+        raise ValueError(f"actions have shape {shape}; expected (T, K, {size}), T and K 1 or more")
+    values = action_rows(actions, (*shape[:2], size))
+    environments = origin.environments(start, shape[1])
+    batch = origin.batch.copies(environments.tolist())
+    task = origin.task.copies(environments)
+    seen = batch.rollout(values, observations=observations, magnet_poses=task.judges_magnets)
+    going = ~origin.ended[environments]
+    left = max_episode_steps - origin.elapsed_steps[environments]
+    rewards = np.zeros(shape[:2])
+    terminated, truncated = np.zeros((2, *shape[:2]), np.bool_)
+    appended = []
+    for t, instant in enumerate(_instants(seen, batch.magnets_present())):
+        verdict = task.judge(instant, seen.progress_m[t], going)
+        outcome = judged(verdict, seen.status[t], going, t + 1 >= left)
+        rewards[t], terminated[t], truncated[t] = outcome.rewards, outcome.terminated, outcome.truncated
+        if observations and task.parts:
+            appended.append(task.observe(instant).astype(np.float32))
+        going = going & ~outcome.ended
+    observed = seen.observations
+    if observed is not None and appended:
+        observed = np.concatenate([observed, np.stack(appended)], axis=2)
+    return Rollout(
+        rewards, terminated, truncated, seen.progress_m, seen.status, seen.robot_poses, observed, batch
+    )
+
+
+def _instants(seen: Trajectories, present: Flags) -> list[Instant]:
+    magnets = seen.magnet_poses
+    poses = [None] * len(seen.status) if magnets is None else list(magnets)
+    return [Instant(robots, of, present) for robots, of in zip(seen.robot_poses, poses, strict=True)]

@@ -1,0 +1,181 @@
+//! Whole trajectories: the actions of many control steps, known beforehand, in one call.
+//!
+//! Each block runs all its control steps in one task of the pool. So its state stays in the cache of one core, and
+//! threads wait for each other once a call instead of once a control step.
+
+use super::block::Block;
+use super::control::{ControlRows, Steps, control_block};
+use super::view::View;
+use crate::model::Model;
+use rayon::ThreadPool;
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// How often whoever asked for a rollout may stop it.
+const WATCH: Duration = Duration::from_millis(50);
+
+/// The actions of T control steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan<'a> {
+    /// Number T of control steps.
+    pub control_steps: usize,
+    /// In [−1, 1] and finite, shape [T × environments × action]; empty where the drive is not controlled.
+    pub actions: &'a [f64],
+}
+
+/// Where a rollout writes what it saw after each of T control steps. Broken environments stand still; their status
+/// says so from then on.
+pub struct RolloutOutput<'a> {
+    /// Progress towards the head in the control step [m], shape [T × environments].
+    pub progress_m: &'a mut [f64],
+    /// Status codes, shape [T × environments].
+    pub status: &'a mut [u8],
+    /// x, z of the robot's centre [m] and its heading [rad], shape [T × environments × 3].
+    pub robot_pose: &'a mut [f64],
+    /// Poses of the body magnets as a [`View`] has them, shape [T × environments × magnets × 3], in space 7; or
+    /// empty, where they are not wanted.
+    pub magnet_pose: &'a mut [f64],
+    /// Shape [T × environments × observation]; or empty.
+    pub observation: &'a mut [f32],
+}
+
+/// What belongs to one block and one control step.
+struct Instant<'a> {
+    control: ControlRows<'a>,
+    robot_pose: &'a mut [f64],
+    magnet_pose: &'a mut [f64],
+}
+
+/// See [`super::Batch::rollout`].
+pub(super) fn rollout<const W: usize>(
+    model: &Model,
+    blocks: &mut [Block<W>],
+    count: usize,
+    pool: Option<&ThreadPool>,
+    plan: Plan<'_>,
+    output: RolloutOutput<'_>,
+    interrupted: &mut dyn FnMut() -> bool,
+) -> bool
+where
+    Block<W>: Steps,
+{
+    let stop = AtomicBool::new(false);
+    let instants = by_block(blocks, count, plan.control_steps, output);
+    let work = |(index, (block, instants)): (usize, (&mut [Block<W>], Vec<Instant<'_>>))| {
+        trajectory(model, &mut block[0], index * W, plan, instants, &stop);
+    };
+    watched(pool, &stop, interrupted, || match pool {
+        None => blocks.chunks_mut(1).zip(instants).enumerate().for_each(work),
+        Some(_) => {
+            blocks.par_chunks_mut(1).zip(instants.into_par_iter()).enumerate().for_each(work)
+        }
+    });
+    !stop.load(Relaxed)
+}
+
+/// All control steps of a block whose first environment is `first`.
+fn trajectory<const W: usize>(
+    model: &Model,
+    block: &mut Block<W>,
+    first: usize,
+    plan: Plan<'_>,
+    instants: Vec<Instant<'_>>,
+    stop: &AtomicBool,
+) where
+    Block<W>: Steps,
+{
+    let per_step = plan.actions.len() / plan.control_steps.max(1);
+    for (step, instant) in instants.into_iter().enumerate() {
+        if stop.load(Relaxed) {
+            return;
+        }
+        let actions = &plan.actions[per_step * step..][..per_step];
+        control_block(model, block, first, actions, instant.control);
+        note_poses(model, block, instant.robot_pose, instant.magnet_pose);
+    }
+}
+
+fn note_poses<const W: usize>(
+    model: &Model,
+    block: &Block<W>,
+    robot_pose: &mut [f64],
+    magnet_pose: &mut [f64],
+) {
+    let lanes = robot_pose.len() / 3;
+    for (lane, row) in robot_pose.chunks_mut(3).enumerate() {
+        row.copy_from_slice(&block.robot_pose(model, lane));
+    }
+    if magnet_pose.is_empty() {
+        return;
+    }
+    for (lane, rows) in magnet_pose.chunks_mut(magnet_pose.len() / lanes).enumerate() {
+        let view = View::new(model, block, lane);
+        for (magnet, row) in rows.chunks_mut(rows.len() / model.magnets()).enumerate() {
+            row.copy_from_slice(&view.magnet_pose(magnet));
+        }
+    }
+}
+
+/// Deals the rows of an output out, `[block][control step]`.
+fn by_block<'a, const W: usize>(
+    blocks: &[Block<W>],
+    count: usize,
+    control_steps: usize,
+    mut output: RolloutOutput<'a>,
+) -> Vec<Vec<Instant<'a>>> {
+    let rows = (control_steps * count).max(1);
+    let (observed, posed) = (output.observation.len() / rows, output.magnet_pose.len() / rows);
+    let mut dealt: Vec<Vec<_>> = blocks.iter().map(|_| Vec::with_capacity(control_steps)).collect();
+    for _ in 0..control_steps {
+        for (index, instants) in dealt.iter_mut().enumerate() {
+            let lanes = W.min(count - index * W);
+            let control = ControlRows {
+                observation: take(&mut output.observation, lanes * observed),
+                progress_m: take(&mut output.progress_m, lanes),
+                status: take(&mut output.status, lanes),
+            };
+            let robot_pose = take(&mut output.robot_pose, 3 * lanes);
+            let magnet_pose = take(&mut output.magnet_pose, lanes * posed);
+            instants.push(Instant { control, robot_pose, magnet_pose });
+        }
+    }
+    dealt
+}
+
+/// The first numbers of what is left.
+fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    rest.split_off_mut(..count).unwrap_or_default()
+}
+
+/// Does the work on the threads of a pool, or on one where there is none, and sets `stop` where the calling thread
+/// is told to: it alone learns of signals.
+fn watched(
+    pool: Option<&ThreadPool>,
+    stop: &AtomicBool,
+    interrupted: &mut dyn FnMut() -> bool,
+    work: impl FnOnce() + Send,
+) {
+    let (working, ended) = channel::<()>();
+    let work = move || {
+        work();
+        drop(working);
+    };
+    let mut watch = || {
+        while ended.recv_timeout(WATCH) == Err(RecvTimeoutError::Timeout) {
+            stop.fetch_or(interrupted(), Relaxed);
+        }
+    };
+    match pool {
+        None => std::thread::scope(|scope| {
+            scope.spawn(work);
+            watch();
+        }),
+        Some(pool) => pool.in_place_scope(|scope| {
+            scope.spawn(|_| work());
+            watch();
+        }),
+    }
+}

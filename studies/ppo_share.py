@@ -1,0 +1,199 @@
+"""The environment's share of the wall time of PPO, beside the trainer's own ceiling.
+
+Trains a few rollouts of Stable-Baselines3's PPO with 256 environments and the settings of
+``training/configs/ppo.toml``, through the adapter :mod:`magworm_gym.sb3`; the time in the environment's steps
+is taken apart. The ceiling is an environment with the same spaces that does nothing. Half a minute.
+
+    python -m studies.ppo_share
+"""
+
+import argparse
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from stable_baselines3 import PPO
+from stable_baselines3.common.utils import set_random_seed
+from stable_baselines3.common.vec_env import VecEnv, VecNormalize
+
+from magworm_gym import Batch, Scene
+from magworm_gym.sb3 import MagWormVecEnv
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+SETTINGS = Path(__file__).parent.parent / "training" / "configs" / "ppo.toml"
+ENVIRONMENTS = 256
+ROLLOUTS = 6
+AIM = 0.1
+"""Largest share that is wanted."""
+
+
+class Timed(MagWormVecEnv):
+    """Adds up the wall time of its steps."""
+
+    seconds = 0.0
+
+    def step_wait(self) -> Any:
+        """See the base class."""
+        start = time.perf_counter()
+        answer = super().step_wait()
+        self.seconds += time.perf_counter() - start
+        return answer
+
+
+class Idle(Timed):
+    """The same spaces, and nothing else: what is left is the trainer."""
+
+    def reset(self) -> NDArray[np.float32]:
+        """See the base class."""
+        self._first = super().reset()
+        return self._first
+
+    def step_wait(self) -> Any:
+        """Zeros."""
+        count = self.num_envs
+        nothing: list[dict[str, Any]] = [{} for _ in range(count)]
+        observations = np.zeros_like(self._first)
+        return observations, np.zeros(count, np.float32), np.zeros(count, np.bool_), nothing
+
+
+class Replayed:
+    """A batch whose steps take no time: each gives the answer of the first."""
+
+    def __init__(self, batch: Batch) -> None:
+        size = sum(part.size for part in batch.action_specification)
+        self._batch, self._answer = batch, batch.step(np.zeros((batch.num_envs, size)))
+
+    def step(self, actions: NDArray[np.float64]) -> Any:
+        """The answer."""
+        return self._answer
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._batch, name)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A task and the solver's step [ms]."""
+
+    title: str
+    task: str
+    scene: str
+    step_ms: float
+
+    @property
+    def simulated(self) -> Scene:
+        """The scene with that step."""
+        return Scene.preset(self.scene).with_values({"solver.step_s": self.step_ms / 1e3})
+
+
+CASES = (
+    Case("Crawl-v0", "crawl", "paper-3", 2.0),
+    Case("Crawl-v0", "crawl", "paper-3", 5.0),
+    Case("Turn-v0", "turn", "turn-3", 2.0),
+)
+
+
+@dataclass(frozen=True)
+class Share:
+    """What a training took.
+
+    Attributes:
+        case: The environment.
+        per_second: Environment steps per second of the training.
+        environment: Environment steps per second of the environment alone, within the training.
+        share: Part of the wall time within the environment's steps.
+        ceiling: Environment steps per second of the training with an environment that does nothing.
+        python_s: Time of adapter and vector environment around the simulator in a step of all [s].
+    """
+
+    case: Case
+    per_second: float
+    environment: float
+    share: float
+    ceiling: float
+    python_s: float
+
+
+def share(case: Case) -> Share:
+    """Trains with the environment and with one that does nothing."""
+    steps, wall_s, inside_s = _trained(Timed, case)
+    idle_steps, idle_s, _ = _trained(Idle, case)
+    ceiling = idle_steps / idle_s
+    return Share(case, steps / wall_s, steps / inside_s, inside_s / wall_s, ceiling, _around(case))
+
+
+def _trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
+    """Environment steps, wall time and the part of it within steps [s], after a rollout to warm up."""
+    settings: dict[str, Any] = tomllib.loads(SETTINGS.read_text("utf-8"))
+    torch.set_num_threads(1)  # the network is small: a second thread waits more than it computes
+    set_random_seed(0)
+    environments = kind(ENVIRONMENTS, case.simulated, settings["run"]["episode_steps"], task=case.task)
+    environments.seed(0)
+    algorithm = settings["algorithm"]
+    normalised: VecEnv = VecNormalize(environments, gamma=algorithm["gamma"])
+    network = {"net_arch": settings["policy"]["hidden"], "log_std_init": settings["policy"]["log_std_init"]}
+    model = PPO("MlpPolicy", normalised, policy_kwargs=network, device="cpu", **algorithm)
+    rollout = ENVIRONMENTS * algorithm["n_steps"]
+    model.learn(rollout)
+    environments.seconds, start = 0.0, time.perf_counter()
+    model.learn(ROLLOUTS * rollout, reset_num_timesteps=False)
+    return ROLLOUTS * rollout, time.perf_counter() - start, environments.seconds
+
+
+def _around(case: Case) -> float:
+    """Median time of a step in which no episode ends, less that of the simulator [s]."""
+    environments = Timed(ENVIRONMENTS, case.simulated, task=case.task)
+    environments.reset()
+    environments.worms._batch = Replayed(environments.worms.batch)  # type: ignore[assignment]
+    actions = np.zeros_like(environments.worms.action_space.sample())
+    times = []
+    for _ in range(environments.worms.max_episode_steps - 1):
+        environments.seconds = 0.0
+        environments.step(actions)
+        times.append(environments.seconds)
+    return float(np.median(times))
+
+
+def table(shares: list[Share]) -> str:
+    """A Markdown table."""
+    heads = ["task", "step", "steps/s of the training", "of the environment alone", "share of wall time"]
+    heads += ["trainer's ceiling, steps/s", f"environment for a share of {100 * AIM:.0f} %, steps/s"]
+    heads += ["Python around the simulator, µs"]
+    lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --- |" * (len(heads) - 1)]
+    for found in shares:
+        needed = found.ceiling * (1.0 - AIM) / AIM
+        rates = f"{found.per_second:,.0f} | {found.environment:,.0f} | {100 * found.share:.0f} %"
+        rest = f"{found.ceiling:,.0f} | {needed:,.0f} | {1e6 * found.python_s:.0f}"
+        lines.append(f"| {found.case.title} | {found.case.step_ms:g} ms | {rates} | {rest} |")
+    return "\n".join(lines)
+
+
+def rows(shares: list[Share]) -> list[list[object]]:
+    """The same as rows of data, with a first row of names."""
+    names: list[object] = ["task", "step_ms", "training_per_s", "environment_per_s", "share"]
+    table = [[*names, "ceiling_per_s", "python_us"]]
+    for s in shares:
+        rates = [round(s.per_second), round(s.environment), round(s.share, 4), round(s.ceiling)]
+        table.append([s.case.title, s.case.step_ms, *rates, round(1e6 * s.python_s)])
+    return table
+
+
+def main() -> None:
+    """Command line."""
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
+    print(table([share(case) for case in CASES]))
+
+
+if __name__ == "__main__":
+    main()
