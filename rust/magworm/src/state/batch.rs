@@ -5,10 +5,10 @@ use super::pool::Pool;
 use super::view::View;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
-use crate::model::Model;
+use crate::model::{Model, Phase};
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
-use crate::step::{advance, command};
+use crate::step::{advance, command, run_phase};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::sync::Arc;
@@ -225,6 +225,21 @@ impl Block<WIDE> {
             }
         }
         run_wide_on(set, Task(model, self, steps));
+    }
+}
+
+impl Block<WIDE> {
+    /// One phase of a solver step, to be looked at on its own; the phases of the model one after another are a step.
+    pub fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase) {
+        struct Task<'a>(&'a Model, &'a mut Block<WIDE>, Phase);
+        impl WideTask for Task<'_> {
+            type Output = ();
+            #[inline(always)]
+            fn run<I: Isa<WIDE>>(self, isa: I) {
+                run_phase(isa, self.0, self.1, self.2);
+            }
+        }
+        run_wide_on(set, Task(model, self, phase));
     }
 }
 
