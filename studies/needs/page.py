@@ -33,7 +33,7 @@ def page(
     """The whole page."""
     parts = [
         INTRODUCTION,
-        "## Counts\n\nPer solver step of eight robots, per wrench of eight lanes, per control step of eight "
+        "## Counts\n\nPer solver step of eight robots, per wrench of eight lanes, per control step of eight\n"
         "environments; `scalar` is one robot in plain `f64`.\n",
         table(["task", "instructions"], [[f"`{name}`", f"{value:,.0f}"] for name, value in counts.items()]),
         _shares(of_phases),
@@ -165,7 +165,8 @@ Two dipoles at a distance r exert at most 3 μ₀ m₁ m₂/(2π r⁴) on each o
 of dipoles. So the force between two cuboids that are nowhere nearer than d is within 3 μ₀ m₁ m₂/(2π d⁴),
 whatever their shapes. Beyond the distance of centres at which that bound is the tolerance, in weights of
 the robot, a wrench could be left out; but only a block all of whose lanes are out of reach saves anything.
-Random actions, {reaches_words(reaches)}.
+Random actions:
+{reaches_words(reaches)}.
 
 {table(header, rows)}
 
@@ -179,16 +180,16 @@ def _verdict(reaches: Mapping[str, Reach]) -> str:
     paying = [name for name, reach in reaches.items() if reach.shares[loose][1] > 0.05]
     where = f"only in {listed([f'`{name}`' for name in far])}" if far else "in none of these scenes"
     loosely = f"in {listed([f'`{name}`' for name in paying])}" if paying else "nowhere"
-    return f"""What is left out acts on every magnet and always to one side, so the tolerance has to be small beside
-what decides whether a foot sticks. At {strict:.0e} of the weight something could be left out {where}; at {loose:.0e}
-the gain would be more than a twentieth of the wrenches {loosely}. Wrenches are not skipped: a comparison in
-every step would save nothing in the scenes that robots learn in, and a belt of more magnets than its robot
-meets is better given fewer (`drive.arrangement.count`)."""
+    return f"""What is left out acts on every magnet and always to one side, so the tolerance has to be small
+beside what decides whether a foot sticks. At {strict:.0e} of the weight something could be left out
+{where}; at {loose:.0e} the gain would be more than a twentieth of the wrenches {loosely}. Wrenches
+are not skipped: a comparison in every step would save nothing in the scenes that robots learn in, and a belt
+of more magnets than its robot meets is better given fewer (`drive.arrangement.count`)."""
 
 
 def reaches_words(reaches: Mapping[str, Reach]) -> str:
     """How many distances were seen."""
-    return " and ".join(f"{reach.wrenches:,} wrenches of `{name}`" for name, reach in reaches.items())
+    return listed([f"{reach.wrenches:,} wrenches of `{name}`" for name, reach in reaches.items()])
 
 
 def _orders(
