@@ -46,9 +46,9 @@ pub fn explain(model: &Model) -> String {
 fn run(model: &Model, least: &mut [Duration]) {
     let set = InstructionSet::widest();
     let mut block = start(model);
-    for (step, row) in least.chunks_mut(model.phases.len()).enumerate() {
-        if step as u32 % model.steps_per_control == 0 {
-            act(model, &mut block, u64::from(step as u32 / model.steps_per_control));
+    for (step, row) in (0..STEPS).zip(least.chunks_mut(model.phases.len())) {
+        if step.is_multiple_of(model.steps_per_control) {
+            act(model, &mut block, u64::from(step / model.steps_per_control));
         }
         for (&phase, least) in model.phases.iter().zip(row) {
             let begin = Instant::now();
