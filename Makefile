@@ -48,7 +48,7 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning
 
-study-needs: install-test count-program need-valgrind  ## what each effect of a scene costs: docs/needs.md
+study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
 	$(VENV_PYTHON) -m studies.needs
 
 test: lint test-rust test-docs test-wheel test-python count  ## everything that CI runs
@@ -70,10 +70,10 @@ bench: install-test  ## time of a wrench, a step, and the throughput of environm
 	mkdir -p runs/bench
 	$(VENV_PYTHON) -m studies.throughput --out runs/bench/throughput.json
 
-count: count-program need-valgrind  ## instructions of steps and wrenches beside the committed ones
+count: need-valgrind count-program  ## instructions of steps and wrenches beside the committed ones
 	$(PYTHON) -m studies.needs.counts
 
-count-write: count-program need-valgrind  ## commit the instructions counted now
+count-write: need-valgrind count-program  ## commit the instructions counted now
 	$(PYTHON) -m studies.needs.counts --write
 
 wheel: $(VENV)/.made  ## release wheel in dist/
