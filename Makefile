@@ -1,5 +1,5 @@
 # `make help` lists the targets. All that is needed: Rust (with clippy and rustfmt for the checks),
-# Python 3.10 or newer, make. Everything is installed into .venv/ inside this folder.
+# Python 3.10 or newer, make; valgrind for `make test`. Everything is installed into .venv/ inside this folder.
 
 PYTHON ?= python3
 VENV ?= .venv
@@ -24,9 +24,9 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map study-growth identify test bench wheel lint format docs clean install \
+.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs identify test bench count count-write wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-python test-docs test-wheel \
-	need-cargo need-python need-rust-checks force
+	count-program need-cargo need-python need-rust-checks need-valgrind force
 
 ##@ Main
 
@@ -48,10 +48,16 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning
 
+study-error: install-test  ## error against run time, five minutes: docs/performance.md
+	$(VENV_PYTHON) -m studies.error
+
 study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes
 	$(VENV_PYTHON) -m studies.growth
 
-test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
+study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
+	$(VENV_PYTHON) -m studies.needs
+
+test: lint test-rust test-docs test-wheel test-python count  ## everything that CI runs
 
 identify: install-test  ## identify the presets again, half an hour: docs/identification/, rust/magworm/scenes/
 	for problem in paper-3 paper-3-experiment; do \
@@ -69,6 +75,12 @@ bench: install-test  ## time of a wrench, a step, and the throughput of environm
 	cargo bench --package magworm
 	mkdir -p runs/bench
 	$(VENV_PYTHON) -m studies.throughput --out runs/bench/throughput.json
+
+count: need-valgrind count-program  ## instructions of steps and wrenches beside the committed ones
+	$(PYTHON) -m studies.needs.counts
+
+count-write: need-valgrind count-program  ## commit the instructions counted now
+	$(PYTHON) -m studies.needs.counts --write
 
 wheel: $(VENV)/.made  ## release wheel in dist/
 	rm -f dist/*.whl
@@ -143,6 +155,14 @@ $(VENV)/.train $(VENV)/.test: $(VENV)/.%: pyproject.toml | $(VENV)/.built
 	$(if $(TORCH_INDEX_URL),$(PIP) install --index-url '$(TORCH_INDEX_URL)' 'torch>=2.4')
 	$(PIP) install 'magworm-gym[$*]'
 	@touch $@
+
+# In the package of the extension, whose build has compiled the simulator already.
+count-program: need-cargo $(VENV)/.made
+	cargo build --release --package magworm-py --example count
+
+need-valgrind:
+	@command -v valgrind >/dev/null \
+		|| { echo 'make: valgrind is missing: on Debian and Ubuntu install valgrind' >&2; exit 1; }
 
 need-cargo:
 	@command -v cargo >/dev/null \

@@ -41,8 +41,13 @@ class Scene:
         """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}. A mapping
         replaces a whole table, None removes an optional one. Raises SceneError."""
     def to_toml(self) -> str: ...
-    def explain(self) -> str:
-        """Terms compiled into the model, and those left out with the reason."""
+    def explain(self, *, measure: bool = False) -> str:
+        """Terms compiled into the model, and those left out with the reason. With measure also the share
+        of each phase of a step, see shares."""
+    def shares(self) -> dict[str, float]:
+        """Phases of a solver step, each with its share of the step's time; they sum to 1. What the scene
+        lacks has no phase. Measured on this machine over 200 steps of eight robots with random actions,
+        the least of three runs; times differ between measurements by some per cent."""
     @property
     def name(self) -> str: ...
     @property

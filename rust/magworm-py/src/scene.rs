@@ -3,6 +3,7 @@
 use crate::errors::{scene_error, value_error};
 use magworm::model::Model;
 use magworm::scene::{self, Motion};
+use magworm::share;
 use pyo3::prelude::*;
 use pyo3::types::{
     PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString, PyTuple,
@@ -52,8 +53,18 @@ impl Scene {
         self.inner().to_toml()
     }
 
-    fn explain(&self) -> String {
-        self.model.explain()
+    #[pyo3(signature = (*, measure = false))]
+    fn explain(&self, py: Python<'_>, measure: bool) -> String {
+        if measure { py.detach(|| share::explain(&self.model)) } else { self.model.explain() }
+    }
+
+    fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let shares = py.detach(|| share::shares(&self.model));
+        let dict = PyDict::new(py);
+        for (phase, share) in shares {
+            dict.set_item(phase.name(), share)?;
+        }
+        Ok(dict)
     }
 
     #[getter]

@@ -17,6 +17,7 @@
 //! | [`integrate`] | the equations of one step |
 //! | [`step`] | a step as a table of contents |
 //! | [`record`] | many scenes, each run once and watched |
+//! | [`share`] | what each phase of a step costs |
 //! | [`observe`], [`reset`] | observations and actions; initial states |
 
 pub mod contact;
@@ -30,5 +31,6 @@ pub mod observe;
 pub mod record;
 pub mod reset;
 pub mod scene;
+pub mod share;
 pub mod state;
 pub mod step;

@@ -6,7 +6,7 @@ use crate::elastic;
 use crate::integrate;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Real};
-use crate::model::Model;
+use crate::model::{Model, Phase};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 use std::f64::consts::TAU;
@@ -14,12 +14,16 @@ use std::f64::consts::TAU;
 /// Advances a block by `steps` solver steps. Environments that break stand still.
 #[inline(always)]
 pub fn advance<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, steps: u32) {
-    for lane in 0..W {
-        block.running[0][lane] = if block.status[lane] == Status::Running { 1.0 } else { 0.0 };
-    }
+    mark_running(block);
     match model.dimensions() {
         2 => advance_in::<W, 2, I>(isa, model, block, steps),
         _ => advance_in::<W, 3, I>(isa, model, block, steps),
+    }
+}
+
+fn mark_running<const W: usize>(block: &mut Block<W>) {
+    for lane in 0..W {
+        block.running[0][lane] = if block.status[lane] == Status::Running { 1.0 } else { 0.0 };
     }
 }
 
@@ -35,50 +39,81 @@ fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
     }
 }
 
-/// One solver step in D dimensions, each line compiled for the instruction set on its own: as one function they would
-/// take a compiler minutes.
+/// One solver step in D dimensions.
 fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
-    isa.vectorize(
-        #[inline(always)]
-        || elastic::kinematics::<W, D, I>(isa, model, block),
-    );
-    isa.vectorize(
-        #[inline(always)]
-        || integrate::assemble::<W, D, I>(isa, model, block),
-    );
-    solve::<W, D, I>(isa, model, block);
-    isa.vectorize(
-        #[inline(always)]
-        || commit::<W, D, I>(isa, model, block),
-    );
-    isa.vectorize(
-        #[inline(always)]
-        || move_drive::<W, D, I>(isa, model, block),
-    );
+    for &phase in &model.phases {
+        run::<W, D, I>(isa, model, block, phase);
+    }
     block.counters.steps += 1;
 }
 
-/// Velocities at the end of the step, with contact where the scene has ground.
-fn solve<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
-    let Some(law) = model.program.ground.as_ref().filter(|_| !model.contacts.is_empty()) else {
-        model.system.kept().factor(isa, &mut block.matrix);
-        block.next.copy_from_slice(&block.right);
-        model.system.kept().solve(isa, &block.matrix, &mut block.next);
-        block.counters.factorisations += 1;
-        return;
-    };
-    let ground = isa.vectorize(
-        #[inline(always)]
-        || {
-            let of_static = isa.load(&block.factors[Parameter::StaticFriction as usize]);
-            let of_dynamic = isa.load(&block.factors[Parameter::DynamicFriction as usize]);
-            contact::Ground::new(law, of_static, of_dynamic, model.step_s)
-        },
-    );
-    contact::detect::<W, D, I>(isa, model, &ground, block);
-    model.system.condense(isa, &mut block.matrix, &mut block.right);
-    contact::solve::<W, D, I>(isa, model, &ground, block);
-    model.system.recover(isa, &block.matrix, &block.right, &mut block.next);
+/// One phase of a step. The phases of a model one after another, each once, are a step.
+pub fn run_phase<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+    phase: Phase,
+) {
+    mark_running(block);
+    match model.dimensions() {
+        2 => run::<W, 2, I>(isa, model, block, phase),
+        _ => run::<W, 3, I>(isa, model, block, phase),
+    }
+}
+
+/// One phase in D dimensions, compiled for the instruction set on its own: as one function all phases would take a
+/// compiler minutes. Contact compiles its parts one by one.
+fn run<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+    phase: Phase,
+) {
+    match phase {
+        Phase::Kinematics => isa.vectorize(
+            #[inline(always)]
+            || elastic::kinematics::<W, D, I>(isa, model, block),
+        ),
+        Phase::Inertia => isa.vectorize(
+            #[inline(always)]
+            || integrate::inertia::<W, D, I>(isa, model, block),
+        ),
+        Phase::Gravity => isa.vectorize(
+            #[inline(always)]
+            || integrate::gravity(isa, model, block),
+        ),
+        Phase::Magnets => isa.vectorize(
+            #[inline(always)]
+            || integrate::magnets::<W, D, I>(isa, model, block),
+        ),
+        Phase::Springs => isa.vectorize(
+            #[inline(always)]
+            || integrate::springs::<W, D, I>(isa, model, block),
+        ),
+        Phase::System => solve(isa, model, block),
+        Phase::ContactPoints => contact::detect::<W, D, I>(isa, model, block),
+        Phase::Condensation => model.system.condense(isa, &mut block.matrix, &mut block.right),
+        Phase::Contact => contact::solve::<W, D, I>(isa, model, block),
+        Phase::Recovery => {
+            model.system.recover(isa, &block.matrix, &block.right, &mut block.next);
+        }
+        Phase::Commit => isa.vectorize(
+            #[inline(always)]
+            || commit::<W, D, I>(isa, model, block),
+        ),
+        Phase::Drive => isa.vectorize(
+            #[inline(always)]
+            || move_drive::<W, D, I>(isa, model, block),
+        ),
+    }
+}
+
+/// Velocities at the end of a step without ground.
+fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    model.system.kept().factor(isa, &mut block.matrix);
+    block.next.copy_from_slice(&block.right);
+    model.system.kept().solve(isa, &block.matrix, &mut block.next);
+    block.counters.factorisations += 1;
 }
 
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the

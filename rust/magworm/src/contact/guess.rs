@@ -1,8 +1,10 @@
 //! What a step starts from, before anything is known of its end, and directions along the ground.
 
 use super::law::{Ground, Point, Response};
+use super::points::start_velocity;
 use super::{Mode, Vector, Workspace, load_vector, store_vector};
 use crate::lanes::{Isa, Real};
+use crate::model::Contact;
 use crate::state::Block;
 
 /// Length below which a vector has no direction.
@@ -33,7 +35,7 @@ pub(super) fn along<F: Real, const D: usize>(a: [F; 2], b: [F; 2]) -> F {
     if D == 2 { a[0] * b[0] } else { a[0] * b[0] + a[1] * b[1] }
 }
 
-/// Coefficient, λ⁰ and first response of a point that moves with u at the start of the step (`u_n`: with its approach).
+/// Coefficient, λ⁰ and first response of a point.
 ///
 /// A point that was closed, or is about to pass through the ground, is taken as closed. Its speed at the start of the
 /// step decides: up to v_d μ_s holds for the step, beyond it μ_d. One coefficient per step keeps the law
@@ -44,14 +46,15 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     ground: &Ground<I::F>,
     block: &mut Block<W>,
     c: usize,
-    u: &Vector<I::F>,
-    bias: &Vector<I::F>,
+    contact: &Contact,
 ) {
     let zero = isa.splat(0.0);
     let (open, slide) = (isa.splat(Mode::OPEN), isa.splat(Mode::SLIDE));
     let before = isa.load(&block.mode[c]);
     let was_closed = !before.eq(open);
-    let closed = was_closed | (u[0] + bias[0]).le(zero);
+    let closed = isa.load(&block.contact.touching[c]).gt(zero);
+    let bias = load_vector::<W, D, I>(isa, &block.contact.bias, c);
+    let u = start_velocity::<W, D, I>(isa, block, c, contact);
     let along = [u[1], u[2]];
     let speed = length::<I::F, D>(along);
     let slow = speed.le(ground.transition_speed);
@@ -65,14 +68,12 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     }
     let coefficient = I::F::select(slow, ground.static_friction, ground.dynamic_friction);
     let point = Point { warm, coefficient, bound: zero };
-    let response = assumed::<I::F, D>(&point, ground, along, speed, bias, closed, sticks);
+    let response = assumed::<I::F, D>(&point, ground, along, speed, &bias, closed, sticks);
     let everywhere = zero.eq(zero);
     let work = &mut block.contact;
     isa.store(coefficient, &mut work.coefficient[c]);
-    store_vector::<W, D, I>(isa, everywhere, bias, &mut work.bias, c);
     store_vector::<W, D, I>(isa, everywhere, &warm, &mut work.warm, c);
     response.store(isa, everywhere, &mut work.response, c);
-    isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
     for k in 0..2 {
         isa.store(zero, &mut work.slip[2 * c + k]);
     }

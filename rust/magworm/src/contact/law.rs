@@ -4,6 +4,8 @@ use super::guess::{direction, length};
 use super::{Mode, Vector};
 use crate::lanes::{Isa, Real};
 use crate::model::GroundLaw;
+use crate::scene::Parameter;
+use crate::state::Block;
 
 /// Adhesion is at most this multiple of the normal impulse. The paper's D_f is there however lightly a point touches
 /// and gone where it does not: where its lever lifts the point, neither holds. So it fades within the last
@@ -47,6 +49,19 @@ impl<F: Real> Ground<F> {
             viscous_share: one * (1.0 - dt / lead_s),
             lead_s: one * lead_s,
         }
+    }
+
+    /// The law with the factors of a block.
+    #[inline(always)]
+    pub(super) fn of<const W: usize, I: Isa<W, F = F>>(
+        isa: I,
+        law: &GroundLaw,
+        step_s: f64,
+        block: &Block<W>,
+    ) -> Self {
+        let of_static = isa.load(&block.factors[Parameter::StaticFriction as usize]);
+        let of_dynamic = isa.load(&block.factors[Parameter::DynamicFriction as usize]);
+        Self::new(law, of_static, of_dynamic, step_s)
     }
 
     /// μ λ_n + D_f Δt, the greatest tangential impulse.

@@ -22,9 +22,10 @@
 //!
 //! A step is one piecewise smooth equation in the velocities of the bodies, S v − s = Jᵀ λ(J v). [`solve`] solves it by
 //! Newton's iteration; friction that grows with the normal impulse makes its matrix unsymmetric. Soft
-//! unknowns are eliminated beforehand ([`crate::lanes::chain`]).
+//! unknowns are eliminated beforehand ([`crate::lanes::chain`]). A block of which no lane touches takes the first iterate.
 
 mod bounded;
+mod flight;
 mod guess;
 mod law;
 mod newton;
@@ -35,7 +36,7 @@ mod solve;
 mod system;
 mod workspace;
 
-pub use law::Ground;
+use law::Ground;
 pub use points::detect;
 pub use solve::solve;
 pub use workspace::Workspace;

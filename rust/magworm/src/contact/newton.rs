@@ -107,10 +107,7 @@ fn residual<const W: usize, const D: usize, I: Isa<W>>(
     bounded: bool,
 ) -> I::F {
     let work = &mut block.contact;
-    for row in 0..work.residual.len() {
-        let change = isa.load(&work.imbalance_change[row]) * step;
-        isa.store(isa.load(&work.imbalance[row]) + change, &mut work.residual[row]);
-    }
+    free_residual(isa, work, step);
     for (c, contact) in model.contacts.iter().enumerate() {
         let mut u = load_vector::<W, D, I>(isa, &work.velocity, c);
         let change = load_vector::<W, D, I>(isa, &work.velocity_change, c);
@@ -123,12 +120,31 @@ fn residual<const W: usize, const D: usize, I: Isa<W>>(
         let rows = &mut work.residual[contact.place..];
         add_force::<W, D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
     }
+    size_of_residual(isa, work)
+}
+
+/// |r|² in the metric of 1/diag S.
+#[inline(always)]
+pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(isa: I, work: &Workspace<W>) -> I::F {
     let mut sum = isa.splat(0.0);
     for row in 0..work.residual.len() {
         let residual = isa.load(&work.residual[row]);
         sum = sum + residual * residual * isa.load(&work.mobility[row]);
     }
     sum
+}
+
+/// S v − s at a step along the direction.
+#[inline(always)]
+pub(super) fn free_residual<const W: usize, I: Isa<W>>(
+    isa: I,
+    work: &mut Workspace<W>,
+    step: I::F,
+) {
+    for row in 0..work.residual.len() {
+        let change = isa.load(&work.imbalance_change[row]) * step;
+        isa.store(isa.load(&work.imbalance[row]) + change, &mut work.residual[row]);
+    }
 }
 
 /// Goes a step along the direction in the lanes of a mask.
@@ -140,8 +156,9 @@ fn advance<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, step: I::F, 
     follow(isa, &mut work.velocity, &work.velocity_change, step, mask);
 }
 
+/// Adds a step along changes in the lanes of a mask.
 #[inline(always)]
-fn follow<const W: usize, I: Isa<W>>(
+pub(super) fn follow<const W: usize, I: Isa<W>>(
     isa: I,
     rows: &mut [[f64; W]],
     changes: &[[f64; W]],

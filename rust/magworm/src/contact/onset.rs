@@ -6,7 +6,7 @@
 
 use super::guess::length;
 use super::law::Ground;
-use super::points::point_velocity;
+use super::points::start_velocity;
 use super::{Mode, load_vector, store_where};
 use crate::lanes::{Isa, Real};
 use crate::model::Model;
@@ -24,8 +24,7 @@ pub(super) fn weaken<const W: usize, const D: usize, I: Isa<W>>(
     let (limit, lost) = (ground.transition_speed, ground.static_friction - ground.dynamic_friction);
     let mut somewhere = limit.lt(limit);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);
-        let start = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
+        let start = start_velocity::<W, D, I>(isa, block, c, contact);
         let end = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
         let before = length::<I::F, D>([start[1], start[2]]);
         let after = length::<I::F, D>([end[1], end[2]]);

@@ -1,7 +1,6 @@
 //! Gaps and velocities of the contact points.
 
-use super::guess::first_guess;
-use super::{Ground, Vector};
+use super::{Ground, Mode, Vector, load_vector, store_vector};
 use crate::elastic::{axes, cross};
 use crate::lanes::{Isa, Real};
 use crate::model::{Contact, Model, Sole};
@@ -10,19 +9,19 @@ use crate::state::Block;
 /// Fastest a point that starts inside the ground is pushed out [m/s].
 const RECOVERY_M_S: f64 = 0.1;
 
-/// Fills arms, approach velocities and first responses of all contact points.
+/// Fills arms and approach velocities of all contact points, and which of them touch.
 pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
     block: &mut Block<W>,
 ) {
+    let Some(law) = &model.program.ground else { return };
     isa.vectorize(
         #[inline(always)]
         || {
-            let step_s = model.step_s;
+            let ground = Ground::of(isa, law, model.step_s, block);
             for (c, contact) in model.contacts.iter().enumerate() {
-                detect_point::<W, D, I>(isa, ground, block, c, contact, step_s);
+                detect_point::<W, D, I>(isa, &ground, block, c, contact, model.step_s);
             }
         },
     );
@@ -67,7 +66,25 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     let u = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
     let mut bias = arc::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
     bias[0] = bias[0] + approach;
-    first_guess::<W, D, I>(isa, ground, block, c, &u, &bias);
+    // What touched, or would pass through the ground at the speed that it has. What is not a number does neither.
+    let was_closed = !isa.load(&block.mode[c]).eq(isa.splat(Mode::OPEN));
+    let zero = isa.splat(0.0);
+    let closed = was_closed | (u[0] + bias[0]).le(zero);
+    let work = &mut block.contact;
+    store_vector::<W, D, I>(isa, zero.eq(zero), &bias, &mut work.bias, c);
+    isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
+}
+
+/// Velocity of a point at the start of the step.
+#[inline(always)]
+pub(super) fn start_velocity<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W>,
+    c: usize,
+    contact: &Contact,
+) -> Vector<I::F> {
+    let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);
+    point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm)
 }
 
 /// What the rotation of a body within the step adds to the mean velocity of its point, ½ Δt ω × (ω × r): it

@@ -7,7 +7,8 @@
 //! first.
 
 use super::bounded::{bound_by_last, relax};
-use super::guess::restart;
+use super::flight::{fly, touching};
+use super::guess::{first_guess, restart};
 use super::law::Ground;
 use super::newton::{attempt, start, turn};
 use super::onset::weaken;
@@ -21,13 +22,42 @@ use crate::state::Block;
 pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
     block: &mut Block<W>,
 ) {
+    let Some(law) = &model.program.ground else { return };
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
+    let touching = isa.vectorize(
+        #[inline(always)]
+        || touching(isa, block, running),
+    );
+    if touching || !fly::<W, D, I>(isa, model, block, running) {
+        let ground = isa.vectorize(
+            #[inline(always)]
+            || Ground::of(isa, law, model.step_s, block),
+        );
+        press::<W, D, I>(isa, model, &ground, block, running);
+    }
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.next[unknown] = block.contact.known[row];
+    }
+}
+
+/// The step of a block in which some point may touch.
+fn press<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    ground: &Ground<I::F>,
+    block: &mut Block<W>,
+    running: I::M,
+) {
     isa.vectorize(
         #[inline(always)]
-        || start::<W, D, I>(isa, model, block),
+        || {
+            for (c, contact) in model.contacts.iter().enumerate() {
+                first_guess::<W, D, I>(isa, ground, block, c, contact);
+            }
+            start::<W, D, I>(isa, model, block);
+        },
     );
     let left = settle::<W, D, I>(isa, model, ground, block, running, &PHASES);
     let weaker = isa.vectorize(
@@ -36,9 +66,6 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     );
     if weaker.any() {
         settle::<W, D, I>(isa, model, ground, block, weaker, &AGAIN);
-    }
-    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.next[unknown] = block.contact.known[row];
     }
 }
 

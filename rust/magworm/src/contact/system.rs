@@ -16,29 +16,44 @@ pub(super) fn solve_linearised<const W: usize, const D: usize, I: Isa<W>>(
     model: &Model,
     block: &mut Block<W>,
 ) {
+    copy(isa, model, block);
+    isa.vectorize(
+        #[inline(always)]
+        || add_responses::<W, D, I>(isa, model, block),
+    );
+    eliminate(isa, model, block);
+}
+
+/// The same where no point responds: S v = s.
+pub(super) fn solve_free<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    copy(isa, model, block);
+    eliminate(isa, model, block);
+}
+
+fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     let band = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
     unsymmetric::expand(isa, band, symmetric, &mut block.contact.matrix);
-    isa.vectorize(
-        #[inline(always)]
-        || assemble::<W, D, I>(isa, model, block),
-    );
-    let body = model.system.body();
+    let ghosts = band.half_bandwidth();
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.contact.target[ghosts + row] = block.right[unknown];
+    }
+}
+
+fn eliminate<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+    let (band, body) = (model.system.kept(), model.system.body());
     unsymmetric::solve(isa, band, body, &mut block.contact.matrix, &mut block.contact.target);
     block.counters.factorisations += 1;
 }
 
 #[inline(always)]
-fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+fn add_responses<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
 ) {
     let band = model.system.kept();
     let ghosts = band.half_bandwidth();
-    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.contact.target[ghosts + row] = block.right[unknown];
-    }
     for (c, contact) in model.contacts.iter().enumerate() {
         let response = Response::load(isa, &block.contact.response, c);
         let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);

@@ -4,7 +4,7 @@
 //! c = x_node − X − R(θ) r: the node follows the magnet, and what it strayed in the last step
 //! (the centripetal ½ ω² r Δt²) is taken back. The saddle-point matrix [M Gᵀ; G 0] stays banded.
 
-use super::springs;
+use super::rod;
 use crate::elastic::Scheme;
 use crate::lanes::Isa;
 use crate::model::{Anchor, Model, Tie};
@@ -18,7 +18,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    springs::<W, D, I>(isa, model, block, scheme);
+    rod::<W, D, I>(isa, model, block, scheme);
     for tie in &model.coordinates.ties {
         constrain::<W, D, I>(isa, model, block, tie, scheme.dt);
     }

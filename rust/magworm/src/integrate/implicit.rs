@@ -10,7 +10,7 @@
 //! stiffness, and since that change is itself of order Δt, the Gauss–Newton stiffness is good enough. Backward Euler
 //! takes the strain at the end instead, is of first order, and damps what oscillates faster than the step resolves.
 
-use super::springs;
+use super::rod;
 use crate::elastic::Scheme;
 use crate::lanes::Isa;
 use crate::model::Model;
@@ -24,5 +24,5 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     block: &mut Block<W>,
     scheme: Scheme<I::F>,
 ) {
-    springs::<W, D, I>(isa, model, block, scheme);
+    rod::<W, D, I>(isa, model, block, scheme);
 }

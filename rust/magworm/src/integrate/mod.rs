@@ -13,20 +13,29 @@ use crate::model::Model;
 use crate::scene::{Integrator, Parameter};
 use crate::state::Block;
 
-/// Assembles matrix and right-hand side of a step, without contacts.
+pub use loads::{gravity, magnets};
+
+/// Begins matrix and right-hand side of a step: inertia alone.
 #[inline(always)]
-pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,
 ) {
     block.matrix.fill([0.0; W]);
-    inertia(isa, model, block);
+    diagonal_inertia(isa, model, block);
     if D == 3 {
         rotary_inertia(isa, model, block);
     }
-    loads::gravity(isa, model, block);
-    loads::magnets::<W, D, I>(isa, model, block);
+}
+
+/// Adds the springs of the rod, and what else the integrator asks for.
+#[inline(always)]
+pub fn springs<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W>,
+) {
     let scheme = scheme(isa, model, block);
     match model.scene.solver.integrator {
         Integrator::Newmark | Integrator::Euler => {
@@ -38,7 +47,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
 
 /// M on the left, M v on the right.
 #[inline(always)]
-fn inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn diagonal_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
     for dof in 0..model.coordinates.count {
         let mass = isa.load(&block.mass[dof]);
         isa.store(mass, &mut block.matrix[model.system.at(dof, dof)]);
@@ -79,9 +88,9 @@ fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
     Scheme::new(integrator, factor(Parameter::Stiffness), damping_s, model.step_s)
 }
 
-/// Adds the springs of the rod.
+/// Adds stretching, bending and twisting.
 #[inline(always)]
-fn springs<const W: usize, const D: usize, I: Isa<W>>(
+fn rod<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     block: &mut Block<W>,

@@ -5,11 +5,13 @@ mod explain;
 mod inertia;
 mod magnetics;
 mod mesh;
+mod phases;
 
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
 pub use inertia::MassPart;
 pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
+pub use phases::Phase;
 
 use crate::drive::DriveModel;
 use crate::lanes::chain::Chain;
@@ -46,6 +48,8 @@ pub struct Model {
     pub contacts: Vec<Contact>,
     /// The terms of this scene's program; what a scene lacks is absent.
     pub program: Program,
+    /// The phases of a step that it needs, in their order.
+    pub phases: Vec<Phase>,
     /// Time step [s].
     pub step_s: f64,
     /// Solver steps per control step.
@@ -171,6 +175,7 @@ impl Model {
             stretch,
             bend,
             inertia,
+            phases: Phase::of(&program, &contacts),
             contacts,
             program,
             coordinates,

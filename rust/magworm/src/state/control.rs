@@ -3,9 +3,9 @@
 use super::block::{Block, Status};
 use crate::lanes::math::sin_cos;
 use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
-use crate::model::Model;
+use crate::model::{Model, Phase};
 use crate::observe;
-use crate::step::{advance, command};
+use crate::step::{advance, command, run_phase};
 
 /// A block that knows how to step itself.
 pub(super) trait Steps: Send {
@@ -36,6 +36,19 @@ impl Block<WIDE> {
             }
         }
         run_wide_on(set, Task(model, self, steps));
+    }
+
+    /// One phase of a solver step, to be looked at on its own; the phases of the model one after another are a step.
+    pub fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase) {
+        struct Task<'a>(&'a Model, &'a mut Block<WIDE>, Phase);
+        impl WideTask for Task<'_> {
+            type Output = ();
+            #[inline(always)]
+            fn run<I: Isa<WIDE>>(self, isa: I) {
+                run_phase(isa, self.0, self.1, self.2);
+            }
+        }
+        run_wide_on(set, Task(model, self, phase));
     }
 }
 

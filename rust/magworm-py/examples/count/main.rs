@@ -1,0 +1,204 @@
+//! Runs one named task, whose work callgrind counts in instructions:
+//!
+//! ```text
+//! valgrind --tool=callgrind --toggle-collect='*counted*' magworm-count paper-3
+//! ```
+//!
+//! Only what runs within [`counted`] is collected. Prints how many units (steps, wrenches, control steps) that was.
+//! Without an argument prints the names of all tasks. With the name of a phase behind that of a task of solver steps only
+//! this phase is collected; with `phases` their names are printed. `studies/needs/counts.py` runs all this and compares.
+//!
+//! An example of this package since the extension's own build of the simulator then serves it as well.
+
+mod cases;
+mod wrench;
+
+use cases::{CASES, Case, Work};
+use magworm::lanes::{InstructionSet, WIDE};
+use magworm::model::{Model, Phase};
+use magworm::observe;
+use magworm::reset::{Draws, reset, scene_start};
+use magworm::state::{Batch, Block, LaneChoice, StepOutput};
+use magworm::step::command;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// Control steps before anything is counted: the robots land and begin to crawl.
+const BEFORE: u64 = 15;
+/// Control steps that are counted.
+const CONTROL_STEPS: u64 = 25;
+
+/// The function that collects.
+#[inline(never)]
+fn counted(work: &mut dyn FnMut()) {
+    work();
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let said = match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => Ok(CASES.iter().map(|case| case.name).collect::<Vec<_>>().join("\n")),
+        [name] => run(name, None).map(|units| units.to_string()),
+        [name, "phases"] => phases(name),
+        [name, phase, ..] => run(name, Some(phase)).map(|units| units.to_string()),
+    };
+    match said {
+        Ok(text) => {
+            println!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            eprintln!("count: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn find(name: &str) -> Result<&'static Case, String> {
+    let case = CASES.iter().find(|case| case.name == name);
+    case.ok_or_else(|| format!("task is {name:?}; allowed: those that are printed without one"))
+}
+
+/// Names of the phases of a task's step.
+fn phases(name: &str) -> Result<String, String> {
+    let model = find(name)?.model()?;
+    Ok(model.phases.iter().map(|phase| phase.name()).collect::<Vec<_>>().join("\n"))
+}
+
+/// Units of work done.
+fn run(name: &str, phase: Option<&str>) -> Result<u64, String> {
+    let case = find(name)?;
+    let model = Arc::new(case.model()?);
+    match case.work {
+        Work::Block => block(&model, avx2()?, phase),
+        Work::Wrench => wrench::count(&model, avx2()?),
+        Work::Scalar => Ok(scalar(&model)),
+        Work::Control => {
+            let widest = InstructionSet::widest().name();
+            if widest != "AVX2" {
+                return Err(format!(
+                    "instruction set is {widest}; allowed: AVX2, that of the counts"
+                ));
+            }
+            Ok(control(&model))
+        }
+    }
+}
+
+/// The instruction set of all counts: valgrind knows no AVX-512, and every processor of recent years has this one.
+fn avx2() -> Result<InstructionSet, String> {
+    let sets = InstructionSet::available();
+    let found = sets.iter().find(|set| set.name() == "AVX2").copied();
+    found.ok_or_else(|| format!("instruction set is {}; allowed: AVX2", sets[0].name()))
+}
+
+/// The action of a robot in a control step; each is held for four.
+fn action(robot: usize, control_step: u64) -> [f64; 5] {
+    let mut draws = Draws::new(robot as u64, 1000 + control_step / 4);
+    std::array::from_fn(|_| draws.uniform(-1.0, 1.0))
+}
+
+/// Solver steps of a block of eight robots, each with actions of its own. `phase`: all if none.
+fn block(model: &Model, set: InstructionSet, phase: Option<&str>) -> Result<u64, String> {
+    let chosen = match phase {
+        None => None,
+        Some(name) => {
+            let found = model.phases.iter().find(|phase| phase.name() == name);
+            Some(*found.ok_or_else(|| format!("phase is {name:?}; allowed: those of the task"))?)
+        }
+    };
+    let mut block = Block::<WIDE>::new(model);
+    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let factors = [1.0; Model::PARAMETERS.len()];
+    for lane in 0..WIDE {
+        let draws = Draws::new(lane as u64, 0);
+        reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
+    }
+    for control_step in 0..BEFORE + CONTROL_STEPS {
+        if let Some(drive) = &model.program.drive {
+            for lane in 0..WIDE {
+                command(model, drive, &mut block, lane, &action(lane, control_step));
+            }
+        }
+        let steps = model.steps_per_control;
+        if control_step < BEFORE {
+            block.advance_on(set, model, steps);
+        } else if let Some(chosen) = chosen {
+            (0..steps).for_each(|_| step_by_phases(&mut block, set, model, chosen));
+        } else {
+            counted(&mut || block.advance_on(set, model, steps));
+        }
+    }
+    Ok(CONTROL_STEPS * u64::from(model.steps_per_control))
+}
+
+/// A solver step of which one phase is counted.
+fn step_by_phases(block: &mut Block<WIDE>, set: InstructionSet, model: &Model, chosen: Phase) {
+    for &phase in &model.phases {
+        let mut run = || block.run_phase_on(set, model, phase);
+        if phase == chosen { counted(&mut run) } else { run() }
+    }
+}
+
+/// Solver steps of one robot in plain `f64`.
+fn scalar(model: &Arc<Model>) -> u64 {
+    let mut batch = Batch::new(model.clone(), 1, LaneChoice::Scalar, Some(1));
+    batch.reset(0, 0, 0, None);
+    let mut caller = Caller::new(model, 1);
+    for control_step in 0..BEFORE + CONTROL_STEPS {
+        caller.act(control_step);
+        let mut advance = || caller.step(&mut batch);
+        if control_step < BEFORE { advance() } else { counted(&mut advance) }
+    }
+    CONTROL_STEPS * u64::from(model.steps_per_control)
+}
+
+/// Control steps of a batch of eight environments, with actions and observations.
+fn control(model: &Arc<Model>) -> u64 {
+    let mut batch = Batch::new(model.clone(), WIDE, LaneChoice::Wide, Some(1));
+    (0..WIDE).for_each(|robot| batch.reset(robot, robot as u64, 0, None));
+    let mut caller = Caller::new(model, WIDE);
+    for control_step in 0..BEFORE + CONTROL_STEPS {
+        caller.act(control_step);
+        let mut advance = || caller.step(&mut batch);
+        if control_step < BEFORE { advance() } else { counted(&mut advance) }
+    }
+    CONTROL_STEPS
+}
+
+/// The arrays that a caller of a batch brings.
+struct Caller {
+    actions: Vec<f64>,
+    size: usize,
+    observation: Vec<f32>,
+    progress_m: Vec<f64>,
+    status: Vec<u8>,
+}
+
+impl Caller {
+    fn new(model: &Model, robots: usize) -> Self {
+        let size = observe::action_size(model);
+        Self {
+            actions: vec![0.0; robots * size],
+            size,
+            observation: vec![0.0; robots * observe::size(model)],
+            progress_m: vec![0.0; robots],
+            status: vec![0; robots],
+        }
+    }
+
+    fn act(&mut self, control_step: u64) {
+        for (robot, row) in self.actions.chunks_mut(self.size.max(1)).enumerate() {
+            row.copy_from_slice(&action(robot, control_step)[..self.size]);
+        }
+    }
+
+    fn step(&mut self, batch: &mut Batch) {
+        let output = StepOutput {
+            observation: &mut self.observation,
+            progress_m: &mut self.progress_m,
+            status: &mut self.status,
+        };
+        batch.step(&self.actions, output);
+    }
+}

@@ -1,0 +1,91 @@
+"""How far drive magnets are from body magnets, and what could be left out there within a bound of the error.
+
+A magnetised body is a distribution of dipoles, and two dipoles m₁, m₂ at a distance r exert at most 3 μ₀ m₁
+m₂/(2π r⁴) on each other. Where two bodies are nowhere nearer than d, no pair of their dipoles is, so the
+force on the whole is within 3 μ₀ m₁ m₂/(2π d⁴), with m = Br V/μ₀ the moments of the whole magnets; no other
+factor is needed.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym import Batch, Scene
+
+MU_0 = 4e-7 * np.pi
+LANES = 8
+ROBOTS = 64
+CONTROL_STEPS = 400
+HOLD = 4
+"""Control steps for which a random action is held."""
+TOLERANCES = (1e-6, 1e-4, 1e-3)
+"""Force that may be left out, relative to the robot's weight."""
+
+
+@dataclass(frozen=True)
+class Magnets:
+    """Length, width, height [m] and remanence [T] of body and drive magnets; the robot's weight [N]."""
+
+    body_m: tuple[float, float, float]
+    drive_m: tuple[float, float, float]
+    remanence_t: tuple[float, float]
+    weight_n: float
+
+    @property
+    def half_diagonals_m(self) -> float:
+        """Sum of both half diagonals."""
+        return 0.5 * float(np.linalg.norm(self.body_m) + np.linalg.norm(self.drive_m))
+
+    def force_bound_n(self, nearest_m: float) -> float:
+        """Bound of the force where no points of both are nearer than so."""
+        volumes = np.prod(self.body_m) * np.prod(self.drive_m)
+        moments = self.remanence_t[0] * self.remanence_t[1] * float(volumes) / MU_0**2
+        return float(3.0 * MU_0 * moments / (2.0 * np.pi * nearest_m**4))
+
+    def out_of_reach_m(self, tolerance: float) -> float:
+        """Distance of centres beyond which the force is below so much of the weight."""
+        scale = self.force_bound_n(1.0) / (tolerance * self.weight_n)
+        return float(scale**0.25) + self.half_diagonals_m
+
+
+def magnets(scene: Scene, values: dict[str, Any]) -> Magnets:
+    """Magnets of a scene; ``values``: its fields."""
+    magnet, drive, material = values["magnet"], values["drive"], values["material"]
+    body = (magnet["length_m"], magnet["width_m"], magnet["height_m"])
+    nodes = Batch(scene, 1).node_positions()[0]
+    lengths = np.linalg.norm(np.diff(nodes, axis=0), axis=-1)
+    rubber = lengths @ np.asarray(scene.geometry["element_thickness_m"]) * scene.geometry["body_width_m"]
+    mass = material["density_kg_m3"] * rubber + scene.magnets * magnet["density_kg_m3"] * float(np.prod(body))
+    return Magnets(
+        body,
+        (drive["length_m"], drive["width_m"], drive["height_m"]),
+        (magnet["remanence_t"], drive["remanence_t"]),
+        float(mass * 9.81),
+    )
+
+
+def distances_m(scene: Scene) -> NDArray[np.float64]:
+    """Distances of centres under random actions (control steps, robots, body magnets, drive magnets) [m]."""
+    axes = scene.dimensions
+    batch = Batch(scene, ROBOTS)
+    batch.reset(np.ones(ROBOTS, bool), np.arange(ROBOTS, dtype=np.uint64), np.zeros(ROBOTS, np.uint64))
+    draws = np.random.default_rng(1)
+    size = sum(part.size for part in batch.action_specification)
+    actions = np.zeros((ROBOTS, size))
+    found = []
+    for step in range(CONTROL_STEPS):
+        if step % HOLD == 0:
+            actions = draws.uniform(-1.0, 1.0, (ROBOTS, size))
+        batch.step(actions)
+        bodies, drives = batch.magnet_poses()[..., :axes], batch.drive_positions()[..., :axes]
+        found.append(np.linalg.norm(bodies[:, :, None] - drives[:, None], axis=-1))
+    return np.asarray(found)
+
+
+def shares_beyond(distance_m: NDArray[np.float64], limit_m: float) -> tuple[float, float]:
+    """Share of wrenches beyond a distance, and of wrenches of eight lanes that all are."""
+    beyond = distance_m > limit_m
+    blocks = beyond.reshape(len(beyond), -1, LANES, *beyond.shape[2:]).all(axis=2)
+    return float(beyond.mean()), float(blocks.mean())
