@@ -42,6 +42,9 @@ class Scene:
     def to_toml(self) -> str: ...
     def explain(self) -> str:
         """Terms compiled into the model, and those left out with the reason."""
+    def explicit_limit(self) -> tuple[float, str]:
+        """The largest stable step of the explicit scheme for this body [s], whatever scheme the scene asks
+        for, and what limits it. A scene with a longer explicit step is refused."""
     @property
     def name(self) -> str: ...
     @property
