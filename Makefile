@@ -24,8 +24,8 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map identify test bench wheel lint format docs clean install \
-	lint-rust lint-python test-rust test-python test-docs test-wheel \
+.PHONY: help demo turn reach validate paper turning-map study-stability identify test bench wheel lint format docs clean install \
+	lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	need-cargo need-python need-rust-checks force
 
 ##@ Main
@@ -47,6 +47,9 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning
+
+study-stability: install-test  ## stiff and extreme scenes, the explicit scheme's largest step: docs/stability.md
+	$(VENV_PYTHON) -m studies.stability
 
 test: lint test-rust test-docs test-wheel test-python  ## everything that CI runs
 
@@ -104,6 +107,9 @@ lint-python: install-test  ## ruff, mypy, stubtest
 
 test-rust: need-cargo  ## cargo test
 	cargo test
+
+test-nightly: need-cargo  ## 100,000 random extreme scenes
+	PROPTEST_CASES=100000 cargo test --test random_scenes extreme
 
 test-docs: need-cargo install-test  ## cargo doc, tables of README.md
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm

@@ -1,11 +1,11 @@
 """The axes of the sweeps: what is varied, from where to where.
 
-Two bodies are swept. The *rod* is the preset ``cantilever`` with ten elements, let go from the horizontal. The
-*robot* is ``paper-3`` over a drive magnet that goes by at 100 mm/s, 22 mm beneath the ground.
+Two bodies are swept. The *rod* is the preset ``cantilever`` with ten elements, let go from the horizontal.
+The *robot* is ``paper-3`` over a drive magnet that goes by at 100 mm/s, 22 mm beneath the ground.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from magworm_gym import Scene
@@ -46,9 +46,15 @@ class Axis:
     values: tuple[float, ...]
     changes: Callable[[float], Changes]
 
-    def label(self, value: float) -> str:
-        """A value with its unit."""
-        return f"{value:g} {self.unit}".strip()
+    @property
+    def title(self) -> str:
+        """Name and unit."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+    @property
+    def ends(self) -> tuple[float, float, float]:
+        """The lowest value, one in the middle, the highest."""
+        return self.values[0], self.values[len(self.values) // 2], self.values[-1]
 
 
 def _same(*keys: str, scale: float = 1.0) -> Callable[[float], Changes]:
@@ -176,10 +182,13 @@ ROBOT_AXES = (
 ALONE: Mapping[str, tuple[Axis, ...]] = {"rod": ROD_AXES, "robot": ROBOT_AXES}
 """The axes of each body, each swept alone."""
 
+LONGER = replace(STEP, values=STEP.values[3:])
+"""Steps as long as a robot is likely to be given: shorter ones take long and tell little."""
+
 CROSSED: Mapping[str, tuple[tuple[Axis, Axis], ...]] = {
     "rod": ((STEP, STIFFNESS), (STEP, DAMPING)),
     "robot": (
-        (STEP, STIFFNESS),
+        (LONGER, STIFFNESS),
         (GAP, REMANENCE),
         (SPEED, GAP),
         (FRICTION, INCLINE),

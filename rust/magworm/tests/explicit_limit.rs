@@ -1,7 +1,7 @@
 //! The explicit scheme knows its largest stable step: a hundredth below it small motions stay small, a hundredth beyond it
 //! they grow, whatever limits it, in the plane and in space.
 //!
-//! A scene beyond the limit is refused, so the rods here are written a thousand times too soft, which the limit of the
+//! A scene beyond the limit is refused, so the rods here are written a hundred times too soft, which the limit of the
 //! scene allows, and stiffened by the environment's own factor, which no rule looks at.
 
 use magworm::lanes::Scalar;
@@ -29,7 +29,7 @@ const HEAVY: &str =
     "{length_m=8e-3,width_m=0.008,height_m=0.004,remanence_t=1.22,density_kg_m3=1e5}";
 const SHORT: &str =
     "{length_m=1e-3,width_m=0.01,height_m=0.02,remanence_t=1.22,density_kg_m3=7500}";
-const SOFTER: f64 = 1e3;
+const SOFTER: f64 = 1e2;
 /// Speed of the disturbance [m/s]: far from bending anything visibly.
 const SPEED_M_S: f64 = 1e-9;
 const STEPS: u32 = 4000;

@@ -53,7 +53,7 @@ fn robot_or_rod(dice: &mut Dice, most_nodes: usize) -> (Body, Magnet) {
     let magnet = Magnet {
         length_m: 0.006303,
         width_m: 0.007455,
-        height_m: (0.25 * thickness_m).max(1e-4).min(0.99 * thickness_m),
+        height_m: (0.25 * thickness_m).max(1e-4),
         remanence_t: dice.between(0.0, 10.0),
         density_kg_m3: dice.decades(1.0, 1e5),
     };
