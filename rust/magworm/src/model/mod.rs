@@ -4,6 +4,7 @@ mod coordinates;
 mod explain;
 mod explicit_limit;
 mod inertia;
+mod line;
 mod magnetics;
 mod mesh;
 mod waves;
