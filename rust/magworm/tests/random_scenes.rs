@@ -4,6 +4,7 @@
 //!
 //! `PROPTEST_CASES` sets the number of scenes.
 
+mod scene_extreme;
 mod scene_strategy;
 
 use magworm::model::Model;
@@ -162,7 +163,7 @@ fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
 
 /// Extreme scenes in the plane and in space.
 fn extreme_scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
-    let of = |dimensions| scene_strategy::extreme::scene(most_nodes, dimensions);
+    let of = |dimensions| scene_extreme::scene(most_nodes, dimensions);
     prop_oneof![of(2), of(3)]
 }
 

@@ -1,9 +1,8 @@
 //! Random valid scenes: the whole space that validation admits, its corners included.
 
 mod body;
-mod dice;
+pub mod dice;
 mod drive;
-pub mod extreme;
 
 use magworm::model::Model;
 use magworm::scene::*;
@@ -56,7 +55,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
 
 /// A scene whose step its integrator can take: an explicit one takes its longest, if need be without damping and with soft
 /// rubber; where that is shorter than a scene allows, Newmark's scheme stands in.
-fn within_the_limit(scene: Scene) -> Scene {
+pub fn within_the_limit(scene: Scene) -> Scene {
     if scene.solver.integrator != Integrator::Explicit {
         return scene;
     }

@@ -3,8 +3,8 @@
 use magworm::scene::*;
 use proptest::prelude::*;
 
-use super::dice::{Dice, dice};
-use super::within_the_limit;
+use crate::scene_strategy::dice::{Dice, dice};
+use crate::scene_strategy::within_the_limit;
 
 /// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
 const RUBBER_KG_M3: f64 = 1070.0;
