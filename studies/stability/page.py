@@ -70,8 +70,7 @@ BROKEN = """
 
 - *The ground holds soles only.* Bridges, and all of a foot but its corners, pass through the ground.
   Robots that are thin, or crushed by strong magnets, swing their middle into it and stop with the status
-  that says so, under every scheme and with every step. This is what the model leaves out, not a failure
-  of a scheme.
+  that says so, whichever the scheme. This is what the model leaves out, not a failure of a scheme.
 - *Magnets within each other.* A drive that goes through the body passes through the robot's magnets.
   There the field of a cuboid has edges where it is infinite, and forces change within less than a step:
   what comes out depends on the step, and robots may be thrown for metres. All of it stays finite.
@@ -80,6 +79,10 @@ BROKEN = """
   until the next step takes it back.
 - *The implicit schemes lose energy instead.* They are stable for any stiffness, and for long steps an
   undamped rod comes to rest far too early: what the table calls stable is often only that.
+- *The softest bodies at the longest steps.* At 1 kPa and 25 to 50 ms elements are stretched beyond three
+  times their length, or nodes sink into the ground, and the run stops with that status.
+- *The energy of the explicit scheme wavers* in proportion to the step; near its limit by a tenth of weight
+  times length. It does not drift.
 
 Not swept, since a scene cannot say it: folded and knotted starts. A scene starts straight; a start inside
 the ground is refused.
@@ -190,8 +193,10 @@ def _axis(outcomes: Sequence[Outcome]) -> str:
 
 
 def _cell(outcome: Outcome) -> str:
-    known = outcome.error == outcome.error
-    return f"{outcome.verdict} {100 * outcome.error:.2g} %" if known else outcome.verdict
+    percent = 100.0 * outcome.error
+    if percent != percent:
+        return outcome.verdict
+    return f"{outcome.verdict} {percent:.0f} %" if percent >= 10.0 else f"{outcome.verdict} {percent:.2g} %"
 
 
 def _sentences(outcomes: Sequence[Outcome]) -> str:

@@ -32,7 +32,7 @@ const SHORT: &str =
 const SOFTER: f64 = 1e2;
 /// Speed of the disturbance [m/s]: far from bending anything visibly.
 const SPEED_M_S: f64 = 1e-9;
-const STEPS: u32 = 4000;
+const STEPS: u32 = 6000;
 
 type Edits<'a> = &'a [(&'a str, &'a str)];
 
@@ -142,8 +142,8 @@ fn small_motions_grow_beyond_the_limit_and_only_there() {
             let beyond = growth(&scene, 1.01 * limit.step_s);
             println!("{name}, {dimensions}: {limit:?}, {} {below:e} {beyond:e}", limit.reason());
             assert_eq!((limit.wave, limit.damping > 1.0), (wave, damped), "{name}, {dimensions}");
-            assert!(below < 1e3, "{name}, {dimensions}: grew by {below:e} below the limit");
-            assert!(beyond > 1e6, "{name}, {dimensions}: grew by {beyond:e} beyond the limit");
+            assert!(below < 1e2, "{name}, {dimensions}: grew by {below:e} below the limit");
+            assert!(beyond > 1e4, "{name}, {dimensions}: grew by {beyond:e} beyond the limit");
         }
     }
 }
