@@ -80,7 +80,7 @@ BROKEN = """
 - *The implicit schemes lose energy instead.* They are stable for any stiffness, and for long steps an
   undamped rod comes to rest far too early: what the table calls stable is often only that.
 - *The softest bodies at the longest steps.* At 1 kPa and 25 to 50 ms elements are stretched beyond three
-  times their length, or nodes sink into the ground, and the run stops with that status.
+  times their length, and the run stops with that status.
 - *The energy of the explicit scheme wavers* in proportion to the step; near its limit by a tenth of weight
   times length. It does not drift.
 
