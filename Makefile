@@ -25,7 +25,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs identify test bench count count-write wheel lint format docs clean install \
-	lint-rust lint-python test-rust test-python test-docs test-wheel \
+	lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	count-program need-cargo need-python need-rust-checks need-valgrind force
 
 ##@ Main
@@ -56,6 +56,9 @@ study-growth: install-test  ## how cost grows with environments, nodes, magnets:
 
 study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
 	$(VENV_PYTHON) -m studies.needs
+
+study-stability: install-test  ## stiff and extreme scenes, the explicit scheme's largest step: docs/stability.md
+	$(VENV_PYTHON) -m studies.stability
 
 test: lint test-rust test-docs test-wheel test-python count  ## everything that CI runs
 
@@ -119,6 +122,9 @@ lint-python: install-test  ## ruff, mypy, stubtest
 
 test-rust: need-cargo  ## cargo test
 	cargo test
+
+test-nightly: need-cargo  ## 100,000 random extreme scenes
+	PROPTEST_CASES=100000 cargo test --test random_scenes extreme
 
 test-docs: need-cargo install-test  ## cargo doc, tables of README.md
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm

@@ -67,6 +67,11 @@ impl Scene {
         Ok(dict)
     }
 
+    fn explicit_limit(&self) -> (f64, String) {
+        let limit = self.model.explicit_limit();
+        (limit.step_s, limit.reason())
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.inner().name

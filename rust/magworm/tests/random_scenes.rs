@@ -4,6 +4,7 @@
 //!
 //! `PROPTEST_CASES` sets the number of scenes.
 
+mod scene_extreme;
 mod scene_strategy;
 
 use magworm::model::Model;
@@ -160,6 +161,12 @@ fn scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
     prop_oneof![flat, spatial].prop_map(short)
 }
 
+/// Extreme scenes in the plane and in space.
+fn extreme_scene(most_nodes: usize) -> impl Strategy<Value = Scene> {
+    let of = |dimensions| scene_extreme::scene(most_nodes, dimensions);
+    prop_oneof![of(2), of(3)]
+}
+
 fn extremes() -> impl Strategy<Value = Vec<f64>> {
     let factor = prop_oneof![
         2 => Just(0.0),
@@ -210,6 +217,13 @@ proptest! {
         seed: u64,
     ) {
         run(Model::compile(&scene).expect("a valid scene"), &extremes, seed)?;
+    }
+
+    #[test]
+    fn extreme_scenes_run(scene in extreme_scene(24), seed: u64) {
+        let model = Model::compile(&scene);
+        prop_assert!(model.is_ok(), "{}", model.unwrap_err());
+        run(model.expect("a model"), &[1.0; Model::PARAMETERS.len()], seed)?;
     }
 }
 

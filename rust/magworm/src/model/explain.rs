@@ -17,7 +17,7 @@ impl Model {
             Integrator::Euler => "backward Euler, linearly implicit, magnets eliminated",
             Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
         };
-        line("integrator", format!("{scheme}, step {} s", self.step_s));
+        line("integrator", format!("{scheme}, step {} s{}", self.step_s, self.explain_limit()));
         let (unknowns, half) = (self.coordinates.count, self.system.half_bandwidth());
         line("unknowns", format!("{unknowns}, half-bandwidth {half}"));
         line("stretching", format!("{} elements", self.stretch.len()));
@@ -35,6 +35,14 @@ impl Model {
         line("drive", self.explain_drive());
         line("uniform field", self.explain_field());
         text
+    }
+
+    fn explain_limit(&self) -> String {
+        if self.scene.solver.integrator != Integrator::Explicit {
+            return String::new();
+        }
+        let limit = self.explicit_limit();
+        format!(" of at most {:.3e} s for {}", limit.step_s, limit.reason())
     }
 
     fn explain_gravity(&self) -> String {

@@ -2,16 +2,21 @@
 
 mod coordinates;
 mod explain;
+mod explicit_limit;
 mod inertia;
+mod line;
 mod magnetics;
 mod mesh;
 mod phases;
+mod waves;
 
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
+pub use explicit_limit::ExplicitLimit;
 pub use inertia::MassPart;
 pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use phases::Phase;
+pub use waves::Wave;
 
 use crate::drive::DriveModel;
 use crate::lanes::chain::Chain;
@@ -143,7 +148,7 @@ impl Model {
     /// Validates and compiles a scene.
     ///
     /// # Errors
-    /// A field that is out of its range, or fields that contradict each other.
+    /// A field that is out of its range, fields that contradict each other, or a step beyond the limit of the explicit scheme.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let mesh = Mesh::new(scene);
@@ -163,7 +168,7 @@ impl Model {
         bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
         let program = Program::new(scene, &mesh);
         let step_s = scene.solver.step_s;
-        Ok(Self {
+        let model = Self {
             scene: scene.clone(),
             translations: translations(&coordinates),
             magnet_remanence_t: scene.magnet.as_ref().map_or(0.0, |m| m.remanence_t),
@@ -180,7 +185,11 @@ impl Model {
             program,
             coordinates,
             mesh,
-        })
+        };
+        if scene.solver.integrator == Integrator::Explicit {
+            model.explicit_limit().check(step_s)?;
+        }
+        Ok(model)
     }
 
     /// Number of body magnets, removed ones included.

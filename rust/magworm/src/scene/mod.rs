@@ -30,6 +30,7 @@ pub use body::{Body, Clamp, Magnet, Material, Rod, RodMagnet, Worm};
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
 pub use preset::PRESETS;
+pub(crate) use schema::quantity;
 pub use solver::{
     Control, Curvature, Integrator, MagnetModel, Parameter, Reset, Solver, Start, Variation,
 };

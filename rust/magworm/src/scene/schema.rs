@@ -101,7 +101,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// A number with its unit; the empty unit is none.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
     match unit {
         "" => number(value),
         "°" => number(value) + "°",

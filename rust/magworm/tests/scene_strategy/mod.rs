@@ -1,9 +1,10 @@
 //! Random valid scenes: the whole space that validation admits, its corners included.
 
 mod body;
-mod dice;
+pub mod dice;
 mod drive;
 
+use magworm::model::Model;
 use magworm::scene::*;
 use proptest::prelude::*;
 
@@ -19,35 +20,78 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
     let field =
         prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
-    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}").prop_map(
-        move |(
-            (body, magnet),
-            drive,
-            ground,
-            field,
-            (solver, mut time),
-            mut rest,
-            mut reset,
-            name,
-        )| {
-            Scene {
-                name,
-                gravity_m_s2: rest.between(0.0, 981.0),
-                dimensions,
-                body,
-                material: material(&mut rest),
-                magnet,
-                magnetic_terms: magnetic_terms(&mut rest),
-                start: start(&mut reset, ground.is_some(), dimensions),
-                ground,
+    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}")
+        .prop_map(
+            move |(
+                (body, magnet),
                 drive,
+                ground,
                 field,
-                control: control(&mut time, &solver),
-                solver,
-                reset: random_reset(&mut reset),
-            }
-        },
-    )
+                (solver, mut time),
+                mut rest,
+                mut reset,
+                name,
+            )| {
+                Scene {
+                    name,
+                    gravity_m_s2: rest.between(0.0, 981.0),
+                    dimensions,
+                    body,
+                    material: material(&mut rest),
+                    magnet,
+                    magnetic_terms: magnetic_terms(&mut rest),
+                    start: start(&mut reset, ground.is_some(), dimensions),
+                    ground,
+                    drive,
+                    field,
+                    control: control(&mut time, &solver),
+                    solver,
+                    reset: random_reset(&mut reset),
+                }
+            },
+        )
+        .prop_map(within_the_limit)
+}
+
+/// A scene whose step its integrator can take: an explicit one takes its longest, if need be without damping and with soft
+/// rubber; where that is shorter than a scene allows, Newmark's scheme stands in.
+pub fn within_the_limit(scene: Scene) -> Scene {
+    if scene.solver.integrator != Integrator::Explicit {
+        return scene;
+    }
+    let (mut undamped, newmark) = (scene.clone(), implicit(scene.clone()));
+    undamped.material.damping_time_s = 0.0;
+    let mut soft = undamped.clone();
+    soft.material.youngs_modulus_pa = 1e2;
+    let limit_s = |scene: &Scene| {
+        let model = Model::compile(&implicit(scene.clone())).expect("a valid scene");
+        model.explicit_limit().step_s
+    };
+    let mut admitted = [scene, undamped, soft].into_iter().map(|scene| (limit_s(&scene), scene));
+    match admitted.find(|(limit_s, _)| *limit_s >= 1e-7) {
+        Some((limit_s, scene)) => {
+            let step_s = scene.solver.step_s.min(limit_s);
+            with_step(scene, step_s)
+        }
+        None => newmark,
+    }
+}
+
+fn implicit(mut scene: Scene) -> Scene {
+    scene.solver.integrator = Integrator::Newmark;
+    let step_s = scene.solver.step_s.max(1e-5);
+    with_step(scene, step_s)
+}
+
+/// Another step, with as many steps in a control step, and those in an episode, as the ranges of a scene allow.
+fn with_step(mut scene: Scene, step_s: f64) -> Scene {
+    let steps = (scene.control.step_s / scene.solver.step_s).round().min((10.0 / step_s).floor());
+    let control_s = steps * step_s;
+    let episodes =
+        (scene.control.episode_s / scene.control.step_s).round().min((1e5 / control_s).floor());
+    scene.solver.step_s = step_s;
+    scene.control = Control { step_s: control_s, episode_s: episodes * control_s };
+    scene
 }
 
 fn material(dice: &mut Dice) -> Material {

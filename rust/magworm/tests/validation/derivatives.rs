@@ -2,7 +2,6 @@
 
 use crate::world::{ROD, World, scene};
 use magworm::elastic::kinematics;
-use magworm::integrate::assemble;
 use magworm::lanes::Scalar;
 use magworm::model::{Anchor, Model};
 use magworm::scene::{Curvature, Scene};
@@ -150,7 +149,7 @@ fn validates_elastic_forces() {
         bend(&mut world);
         let q = unknowns(&world);
         kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
-        assemble::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        world.assemble::<2>();
         let mut expected = DVector::zeros(q.len());
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             expected -= gradient * (strain.stiffness * strain.value);
@@ -179,7 +178,7 @@ fn validates_implicit_step() {
             world.block.lagged[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
         }
         kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
-        assemble::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        world.assemble::<2>();
         let matrix = expected_matrix(&world, &q, [3e-3 + 0.5 * dt, 0.51 * dt]);
         let taken_back = expected_matrix(&world, &q, [0.5 * dt, 0.5 * dt]);
         let masses = expected_matrix(&world, &q, [0.0; 2]);

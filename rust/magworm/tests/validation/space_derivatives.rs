@@ -4,8 +4,6 @@ use crate::report::Case;
 use crate::space_frames::carried;
 use crate::space_world::Vector;
 use crate::world::{ROD, World};
-use magworm::integrate::assemble;
-use magworm::lanes::Scalar;
 use magworm::model::Anchor;
 use magworm::scene::Curvature;
 use nalgebra::{DMatrix, DVector, Rotation3};
@@ -238,7 +236,7 @@ fn expected_matrix(world: &World, strains: &[Strain], gradients: &[DVector<f64>]
 
 /// Errors of the forces and of the matrix of one body, as parts of the largest force and of the diagonal.
 fn errors(mut world: World) -> [f64; 2] {
-    assemble::<1, 3, _>(Scalar, &world.model, &mut world.block);
+    world.assemble::<3>();
     let (strains, gradients) = (Shape::of(&world).strains(&world), gradients(&world));
     let count = world.model.coordinates.count;
     let mut expected = DVector::zeros(count);

@@ -1,5 +1,6 @@
 //! One environment whose state a test may set and read freely.
 
+use magworm::integrate;
 use magworm::lanes::Scalar;
 use magworm::model::{Anchor, Model};
 use magworm::reset::{Draws, StartPose, reset, scene_start};
@@ -108,6 +109,15 @@ impl World {
                 [vx - rate * (here[1] - y), vy + rate * (here[0] - x)]
             }
         }
+    }
+
+    /// The equations of a step in D dimensions, without contact, from the kinematics as they stand.
+    pub fn assemble<const D: usize>(&mut self) {
+        let (model, block) = (&self.model, &mut self.block);
+        integrate::inertia::<1, D, _>(Scalar, model, block);
+        integrate::gravity(Scalar, model, block);
+        integrate::magnets::<1, D, _>(Scalar, model, block);
+        integrate::springs::<1, D, _>(Scalar, model, block);
     }
 
     /// Sets a rigid motion: velocity at the origin and angular velocity.

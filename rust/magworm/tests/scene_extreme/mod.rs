@@ -1,0 +1,133 @@
+//! Random extreme scenes: robots and rods where a drive magnet reaches them, over the ranges of `docs/stability.md`.
+
+use magworm::scene::*;
+use proptest::prelude::*;
+
+use crate::scene_strategy::dice::{Dice, dice};
+use crate::scene_strategy::within_the_limit;
+
+/// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
+const RUBBER_KG_M3: f64 = 1070.0;
+
+/// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
+pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
+    (dice(16), dice(24), dice(24)).prop_map(move |(mut body, mut world, mut rest)| {
+        let (body, magnet) = robot_or_rod(&mut body, most_nodes);
+        let solver = solver(&mut rest);
+        let steps = rest.whole(1, 40) as f64;
+        let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
+        let motion = drive_motion(&mut world, dimensions);
+        within_the_limit(Scene {
+            name: "extreme".into(),
+            gravity_m_s2: rest.between(0.0, 981.0),
+            dimensions,
+            body,
+            material: Material {
+                youngs_modulus_pa: rest.decades(1e3, 1e10),
+                density_kg_m3: RUBBER_KG_M3 * rest.decades(1e-3, 10.0),
+                damping_time_s: if rest.coin() { 0.0 } else { rest.decades(1e-5, 1.0) },
+                poisson_ratio: 0.5,
+            },
+            magnet: Some(magnet),
+            drive: (rest.between(0.0, 1.0) < 0.8).then(|| drive(&mut world, motion)),
+            field: None,
+            magnetic_terms: MagneticTerms::default(),
+            start: Start {
+                x_m: 0.0,
+                height_m: if rest.coin() { 0.0 } else { rest.decades(1e-4, 1.0) },
+                angle_deg: rest.one_of(&[0.0, 0.0, 30.0, 90.0, 135.0, 180.0, -60.0]),
+                z_m: 0.0,
+                yaw_deg: rest.in_space(dimensions, -180.0, 180.0),
+            },
+            ground,
+            control: Control { step_s: steps * solver.step_s, episode_s: steps * solver.step_s },
+            solver,
+            reset: Reset::default(),
+        })
+    })
+}
+
+/// The paper's robot, or a rod with two magnets, as thin or thick as a scene allows.
+fn robot_or_rod(dice: &mut Dice, most_nodes: usize) -> (Body, Magnet) {
+    let (thickness_m, width_m) = (dice.decades(1e-4, 0.03), 0.01131);
+    let magnet = Magnet {
+        length_m: 0.006303,
+        width_m: 0.007455,
+        height_m: (0.25 * thickness_m).max(1e-4),
+        remanence_t: dice.between(0.0, 10.0),
+        density_kg_m3: dice.decades(1.0, 1e5),
+    };
+    if dice.coin() {
+        let magnets = dice.whole(1, 5);
+        let spare = most_nodes.saturating_sub(3 * magnets + 1);
+        return (worm(dice, magnets, thickness_m, width_m, spare), magnet);
+    }
+    let magnets = [(0.026, 1), (0.046, -1)]
+        .map(|(position_m, polarity)| RodMagnet { position_m, polarity })
+        .to_vec();
+    let elements = dice.whole(4, most_nodes - 8);
+    let clamp = dice.one_of(&[Clamp::None, Clamp::None, Clamp::Head]);
+    (Body::Rod(Rod { length_m: 0.054, width_m, thickness_m, elements, clamp, magnets }), magnet)
+}
+
+fn worm(dice: &mut Dice, magnets: usize, thickness_m: f64, width_m: f64, spare: usize) -> Body {
+    let bridges = dice.whole(1, (spare / magnets).max(1));
+    Body::Worm(Worm {
+        magnets,
+        pitch_m: 0.02,
+        foot_length_m: 0.014,
+        foot_thickness_m: thickness_m,
+        bridge_thickness_m: dice.decades(1e-4, thickness_m),
+        width_m,
+        first_polarity: dice.polarity(),
+        removed: vec![],
+        elements_per_bridge: bridges,
+        elements_per_foot_end: 1,
+    })
+}
+
+/// Friction up to 10 on inclines up to the vertical.
+fn ground(dice: &mut Dice) -> Ground {
+    let static_friction = dice.between(0.0, 10.0);
+    Ground {
+        static_friction,
+        dynamic_friction: dice.between(0.0, static_friction),
+        transition_speed_m_s: dice.decades(1e-6, 0.1),
+        adhesion_n: dice.one_of(&[0.0, 5e-3, 1.0]),
+        incline_deg: dice.one_of(&[0.0, 0.0, 45.0, 90.0, -90.0]),
+    }
+}
+
+/// A magnet that goes by, from 60 mm beneath the ground to touching the body and right through it.
+fn drive_motion(dice: &mut Dice, dimensions: usize) -> Motion {
+    Motion::Constant {
+        x_m: dice.between(-0.03, 0.08),
+        y_m: dice.between(-0.06, 0.02),
+        speed_m_s: dice.between(-10.0, 10.0),
+        z_m: dice.in_space(dimensions, -0.02, 0.02),
+        yaw_deg: dice.in_space(dimensions, -180.0, 180.0),
+    }
+}
+
+fn drive(dice: &mut Dice, motion: Motion) -> Drive {
+    Drive {
+        length_m: 0.0149,
+        width_m: 0.02618,
+        height_m: 0.004033,
+        remanence_t: dice.between(0.0, 10.0),
+        reference: Reference::Centre,
+        arrangement: Arrangement::Single,
+        motion,
+    }
+}
+
+fn solver(dice: &mut Dice) -> Solver {
+    Solver {
+        integrator: dice.one_of(&[Integrator::Newmark, Integrator::Euler, Integrator::Explicit]),
+        step_s: dice.decades(1e-5, 0.05),
+        magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Cuboid, MagnetModel::Dipole]),
+        quadrature_order: dice.whole(1, 3),
+        contact_iterations: 120,
+        curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
+    }
+}

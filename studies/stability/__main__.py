@@ -1,0 +1,76 @@
+"""Sweeps stiff and extreme scenes and writes page, figures and data.
+
+python -m studies.stability           # docs/stability.md, docs/images/stability/, studies/stability/*.csv
+python -m studies.stability --long    # every value in space as well, and every pair of axes: pairs.csv
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+from studies.paper.figures import save
+from studies.stability.axes import ALONE, CROSSED
+from studies.stability.cases import alone, crossed, every_pair, judge
+from studies.stability.data import energy_csv, limits_csv, outcomes_csv
+from studies.stability.energy import swings
+from studies.stability.limits import limits
+from studies.stability.page import IMAGES, page
+from studies.stability.pictures import robot_map, rod_map
+
+HERE = Path(__file__).parent
+DOCS = HERE.parent.parent / "docs"
+PAIRS = HERE / "pairs.csv"
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--long", action="store_true", help="all values in space, every pair of axes")
+    long = parser.parse_args().long
+    start = time.perf_counter()
+
+    def said(name: str) -> None:
+        print(f"{name:<10}{time.perf_counter() - start:6.1f} s", flush=True)
+
+    found = limits()
+    said("limits")
+    energies = swings()
+    said("energies")
+    single = []
+    for dimensions in (2, 3):
+        single += judge(
+            [
+                case
+                for body, axes in ALONE.items()
+                for axis in axes
+                for case in alone(body, axis, dimensions, long=long)
+            ]
+        )
+        said("plane" if dimensions == 2 else "space")
+    maps = {
+        body: judge([case for pair in pairs for case in crossed(body, pair)])
+        for body, pairs in CROSSED.items()
+    }
+    said("crossed")
+    if long:
+        PAIRS.write_text(outcomes_csv(judge(every_pair(), accuracy=False)), encoding="utf-8")
+        said("pairs")
+    (DOCS / IMAGES).mkdir(parents=True, exist_ok=True)
+    for name, figure in {"rod": rod_map(maps["rod"]), "robot": robot_map(maps["robot"])}.items():
+        save(figure, DOCS / IMAGES / f"{name}.png")
+    texts = {
+        HERE / "alone.csv": outcomes_csv(single),
+        HERE / "crossed.csv": outcomes_csv(maps["rod"] + maps["robot"]),
+        HERE / "limits.csv": limits_csv(found),
+        HERE / "energy.csv": energy_csv(energies),
+        DOCS / "stability.md": page(found, energies, single, maps, PAIRS),
+    }
+    for path, text in texts.items():
+        path.write_text(text, encoding="utf-8")
+    said("written")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,101 @@
+"""The study of stability: verdicts, energies, the explicit scheme's limit, the page. No full run."""
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from magworm_gym import Scene, SceneError, record_scenes
+from studies.stability.axes import ALONE, GAP, INSIDE, MASS_RATIO, SECTION, STEP, STIFFNESS, base_scene
+from studies.stability.cases import Case, alone, crossed, every_pair, judge
+from studies.stability.data import energy_csv, limits_csv, outcomes_csv
+from studies.stability.energy import CLAMPED, Swing, energies_j, measured
+from studies.stability.limits import limits, refusal, rod, stays
+from studies.stability.page import page
+
+
+def test_every_axis_makes_scenes_or_says_why_not() -> None:
+    for body, axes in ALONE.items():
+        for axis in axes:
+            for value in axis.values:
+                changes = axis.changes(value)
+                try:
+                    base_scene(body, 2).with_values(changes)
+                except SceneError:
+                    assert axis is INSIDE
+                    assert value > 0.0
+
+
+def test_the_robot_keeps_its_mass_whatever_the_ratio() -> None:
+    preset = Scene.preset("paper-3").to_toml()
+    assert "density_kg_m3 = 1070" in preset
+    near = MASS_RATIO.changes(7500.0 / 1070.0 * 0.0629)
+    assert near["material.density_kg_m3"] == pytest.approx(1070.0, rel=0.01)
+    assert near["magnet.density_kg_m3"] == pytest.approx(7500.0, rel=0.01)
+    assert GAP.changes(0.0)["drive.motion.y_m"] == pytest.approx(-0.004033 / 2)
+    assert SECTION.changes(7.0)["body.bridge_thickness_m"] == pytest.approx(0.004)
+
+
+def test_verdicts_of_a_rod() -> None:
+    cases = [
+        Case("rod", 2, "newmark", ((STIFFNESS, 1e7),)),
+        Case("rod", 2, "newmark", ((STEP, 25),)),
+        Case("rod", 2, "explicit", ((STEP, 2),)),
+        Case("robot", 2, "newmark", ((SECTION, 0.1),)),
+    ]
+    found = judge(cases)
+    assert [outcome.verdict for outcome in found] == ["accurate", "stable", "refused", "broken"]
+    assert found[0].error < 0.02 < found[1].error
+    assert "axial wave in element 9" in found[2].sentence
+    assert "sank into the ground" in found[3].sentence
+    assert math.isnan(judge(cases[:1], accuracy=False)[0].error)
+
+
+def test_energy_is_kept_by_the_explicit_scheme_and_lost_by_backward_euler() -> None:
+    swing = Swing(CLAMPED, "explicit", 1e5, 0.05)
+    record = record_scenes([swing.scene()], 0.05, swing.step_ms / 1e3)[0]
+    visible_j, elastic_j, unit_j = energies_j(record, swing)
+    total_j = visible_j + elastic_j
+    assert np.ptp(total_j) < 1e-3 * elastic_j.max()
+    assert elastic_j.max() > 0.01 * unit_j
+    assert measured(Swing(CLAMPED, "explicit", 1e5, 2.0)).broken is None
+    assert math.isnan(measured(Swing(CLAMPED, "explicit", 1e5, 2.0)).gain)
+    assert measured(Swing(CLAMPED, "euler", 1e5, 2.0)).lost > 0.05
+
+
+def test_the_limit_is_found_where_it_is_predicted() -> None:
+    for one in limits(["rod", "τ = 0.3 ms"]):
+        assert one.found_s == pytest.approx(one.predicted_s, rel=0.01)
+    scene = rod("heavy magnets", 3)
+    predicted_s, _ = scene.explicit_limit()
+    assert stays(scene, 0.99 * predicted_s)
+    assert not stays(scene, 1.01 * predicted_s)
+
+
+def test_page_and_tables(tmp_path: Path) -> None:
+    single = judge([*alone("rod", STIFFNESS, 3)[:2], Case("robot", 2, "newmark", ((INSIDE, 1.0),))])
+    pair = judge(crossed("rod", (STEP, STIFFNESS))[-2:], accuracy=False)
+    swings = [measured(Swing(CLAMPED, "newmark", 1e5, 50.0))]
+    found = limits(["rod"])
+    pairs = tmp_path / "pairs.csv"
+    bare = page(found, swings, single, {"rod": pair, "robot": []}, pairs)
+    assert refusal() in bare
+    assert "start.height_m is -0.001 m; allowed" in bare
+    assert "The long form" not in bare
+    pairs.write_text(outcomes_csv(pair), encoding="utf-8")
+    assert "The long form" in page(found, swings, single, {"rod": pair, "robot": []}, pairs)
+    assert len(outcomes_csv(single).splitlines()) == 1 + len(single)
+    assert len(limits_csv(found).splitlines()) == 3
+    assert ",50," in energy_csv(swings)
+
+
+def test_every_pair_has_both_ends() -> None:
+    settings = {tuple((axis.name, value) for axis, value in case.settings) for case in every_pair()}
+    assert (("Young's modulus", 1e3), ("retardation time", 1.0)) in settings
+    assert (("friction", 10), ("incline", 90)) in settings
