@@ -54,6 +54,7 @@ class Case:
         reference: The converged one, in every value.
         check: Coarser in every value: its difference from the reference bounds the error of that.
         exact: Figures known otherwise, in place of the reference's.
+        ranked: Figure whose error is set against cost; empty: the first.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Case:
     reference: Settings
     check: Settings
     exact: Mapping[str, float] = field(default_factory=dict)
+    ranked: str = ""
 
     def scene(self, index: int, settings: Settings) -> Scene:
         """A run with some settings."""

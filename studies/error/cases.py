@@ -112,10 +112,9 @@ def cantilever() -> Case:
     return Case(
         name="cantilever",
         title="An undamped heavy cantilever",
-        text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, let go from the horizontal: about two swings in"
-        " the second that is run. Tip: its distance from the clamp along the horizontal and below,"
-        " against (52.708, −11.759) mm of an extensible Kirchhoff rod; codes with shear and rotary"
-        " inertia differ by up to 1 % of the length.",
+        text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, undamped, let go from the horizontal: about two"
+        " swings in the second that is run. Drop: how far the tip then is below the clamp, 11.76 mm by an independent"
+        " discretisation of an extensible Kirchhoff rod; pose: distance of the tip from where it should be.",
         body="rod",
         scenes=[scene],
         duration_s=1.0,
@@ -136,13 +135,14 @@ def cantilever() -> Case:
         front=[Settings(step, mesh) for mesh in ROD_MESHES for step in ROD_STEPS_MS],
         reference=Settings(0.02, 216),
         check=Settings(0.04, 108),
+        ranked="pose",
     )
 
 
 def read_cantilever(records: Sequence[Recording]) -> Outcome:
-    """Place of the tip at the end [mm], the wall at the origin, and the same as a track [m]."""
+    """How far the tip is below the clamp [mm], and its place as a track of one instant."""
     tips = np.array([record.nodes[-1, -1] for record in records])
-    return Outcome({"tip x": MM * tips[:, 0], "tip y": MM * tips[:, 1]}, tips[:, None, None, :])
+    return Outcome({"drop": -MM * tips[:, 1]}, tips[:, None, None, :])
 
 
 def incline() -> Case:

@@ -102,7 +102,7 @@ def section(case: Case, rows: Sequence[Row]) -> str:
             f"Reference: {case.reference.text()}; {case.check.text()} differs by: {bounds}.\n",
             f"![{case.title}]({IMAGES}/{case.name}.png)\n",
             *(axis_table(name, rows) for name in dict.fromkeys(axis.name for axis in case.axes)),
-            front_table(rows),
+            front_table(case, rows),
         ]
     )
 
@@ -123,11 +123,12 @@ def axis_table(name: str, rows: Sequence[Row]) -> str:
     return f"Along the {name}:\n\n" + table(["settings", *figures], lines)
 
 
-def front_table(rows: Sequence[Row]) -> str:
+def front_table(case: Case, rows: Sequence[Row]) -> str:
     """The front, with costs."""
     front = [row for row in rows if row.part == "front" and row.work is not None]
     figures = list(dict.fromkeys(row.figure for row in front))
-    best = pareto([row for row in front if row.figure == figures[0]])
+    ranked = case.ranked or figures[0]
+    best = pareto([row for row in front if row.figure == ranked])
     lines = []
     for chosen in best:
         found = {row.figure: error_text(row) for row in front if row.settings == chosen.settings}
@@ -152,7 +153,7 @@ def front_table(rows: Sequence[Row]) -> str:
         "trials",
         "wrenches",
     ]
-    return f"On the front, by the error of the {figures[0]}:\n\n" + table(head, lines)
+    return f"On the front, by the error of the {ranked}:\n\n" + table(head, lines)
 
 
 def peer_table(peers: Sequence[Mapping[str, str]]) -> str:

@@ -4,11 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.ticker import NullFormatter
+
 from studies.error.case import Case
 from studies.error.front import cost_s, pareto, size
 from studies.error.measured import Row
 from studies.error.settings import INTEGRATORS
-from studies.paper.figures import BLUE, INK, ORANGE, RED, TEAL, VIOLET, legend_beside, panels
+from studies.paper.figures import BLUE, INK, ORANGE, RED, TEAL, VIOLET, panels
 
 COLOURS = (BLUE, ORANGE, TEAL, RED, VIOLET)
 LABELS = {"step": "step [ms]", "elements": "elements", "order": "order of the quadrature, 0: dipoles"}
@@ -32,12 +34,12 @@ def value_on(axis: str, row: Row) -> float:
 
 
 def draw_case(case: Case, rows: Sequence[Row], path: Path) -> None:
-    """Errors along each axis, then errors of the first figure against cost with the front."""
+    """Errors along each axis, then those of one figure against cost with the front."""
     axes_names = list(dict.fromkeys(axis.name for axis in case.axes))
-    figure, axes = panels(1, len(axes_names) + 1, (3.1 * (len(axes_names) + 1), 3.2))
+    figure, axes = panels(1, len(axes_names) + 1, (3.1 * (len(axes_names) + 1), 4.4))
     for name, panel in zip(axes_names, axes, strict=False):
         _draw_axis(name, [row for row in rows if row.part == f"axis {name}"], panel)
-    _draw_front([row for row in rows if row.part == "front"], axes[-1])
+    _draw_front(case.ranked, [row for row in rows if row.part == "front"], axes[-1])
     figure.savefig(path, format="png", dpi=140)
 
 
@@ -60,26 +62,38 @@ def _draw_axis(name: str, rows: Sequence[Row], panel: Any) -> None:
             label=words if len(integrators) == 1 else f"{words}, {INTEGRATORS[integrator]}",
         )
     panel.set(xlabel=LABELS[name], ylabel="error", yscale="log")
+    values = sorted({value_on(name, row) for row in rows})
     if name != "order":
         panel.set(xscale="log")
-    legend_beside(panel)
+    if name != "step":
+        panel.set_xticks(values, [f"{value:g}" for value in values])
+    _finish(panel)
 
 
-def _draw_front(rows: Sequence[Row], panel: Any) -> None:
-    first = rows[0].figure
+def _draw_front(ranked: str, rows: Sequence[Row], panel: Any) -> None:
+    first = ranked or rows[0].figure
     shown = [row for row in rows if row.figure == first and row.work is not None]
     meshes = sorted({row.settings.elements for row in shown})
     for mesh in meshes:
         points = [row for row in shown if row.settings.elements == mesh]
         panel.plot(
             [1.0 / cost_s(row) for row in points],
-            [PERCENT * size(row) for row in points],
+            [scale(first) * size(row) for row in points],
             "o",
             color=COLOURS[meshes.index(mesh) % len(COLOURS)],
             label=f"{mesh} elements",
         )
     best = pareto(shown)
-    panel.plot([1.0 / cost_s(r) for r in best], [PERCENT * size(r) for r in best], "-", color=INK, lw=0.8)
-    panel.set(xlabel="robot-seconds per second of a core", ylabel=f"error of the {first} [%]")
+    panel.plot(
+        [1.0 / cost_s(r) for r in best], [scale(first) * size(r) for r in best], "-", color=INK, lw=0.8
+    )
+    panel.set(xlabel="robot-seconds per second of a core", ylabel=f"error of the {first} [{unit(first)}]")
     panel.set(xscale="log", yscale="log")
-    legend_beside(panel)
+    _finish(panel)
+
+
+def _finish(panel: Any) -> None:
+    """Legend below, where it covers nothing, and numbers at whole powers of ten alone."""
+    for axis in (panel.xaxis, panel.yaxis):
+        axis.set_minor_formatter(NullFormatter())
+    panel.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), frameon=False, fontsize=8)
