@@ -114,7 +114,8 @@ def cantilever() -> Case:
         title="An undamped heavy cantilever",
         text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, undamped, let go from the horizontal: about two"
         " swings in the second that is run. Drop: how far the tip then is below the clamp, 11.76 mm by an"
-        " independent discretisation of an extensible Kirchhoff rod; pose: distance of the tip from where it should be.",
+        " independent discretisation of an extensible Kirchhoff rod; pose: distance of the tip from where it"
+        " should be.",
         body="rod",
         scenes=[scene],
         duration_s=1.0,
