@@ -41,6 +41,7 @@ def main() -> None:
     arguments = parser.parse_args()
     rows = measured(arguments.cases, arguments.repetitions)
     write(rows, DATA)
+    rows = read(DATA)  # rounded alike, whatever was measured just now
     (DOCS / IMAGES).mkdir(parents=True, exist_ok=True)
     shown = [case for name, case in CASES.items() if any(row.case == name for row in rows)]
     for case in shown:
