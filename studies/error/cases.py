@@ -113,12 +113,13 @@ def cantilever() -> Case:
         name="cantilever",
         title="An undamped heavy cantilever",
         text="54 mm long, 10 × 4 mm, 100 kPa, 1070 kg/m³, undamped, let go from the horizontal: about two"
-        " swings in the second that is run. Drop: how far the tip then is below the clamp, 11.76 mm by an"
-        " independent discretisation of an extensible Kirchhoff rod; pose: distance of the tip from where it"
-        " should be. Backward Euler damps a vibration of frequency ω like a retardation time of one step, ω Δt/2"
-        " a radian: that ruins an undamped rod, while the crawling robot's rubber has a retardation time as long"
-        " of its own. Newmark's scheme, with a velocity that lags, damps in third order, and by a hundredth of a"
-        " step where tension turns; the explicit one does not damp at all.",
+        " swings in the second that is run. Drop: how far the tip then is below the clamp, 11.76 mm by"
+        " an independent discretisation of an extensible Kirchhoff rod; pose: distance of the tip from"
+        " where it should be. Backward Euler damps a vibration of frequency ω like a retardation time of"
+        " one step, ω Δt/2 a radian: that ruins an undamped rod, while the crawling robot's rubber has a"
+        " retardation time as long of its own. Newmark's scheme, with a velocity that lags, damps in"
+        " third order, and by a hundredth of a step where tension turns; the explicit one does not damp"
+        " at all.",
         body="rod",
         scenes=[scene],
         duration_s=1.0,
