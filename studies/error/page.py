@@ -3,6 +3,7 @@
 import statistics
 from collections.abc import Mapping, Sequence
 
+from magworm_gym import Scene
 from studies.error.case import Case
 from studies.error.errors import Figure
 from studies.error.front import cost_s, pareto
@@ -10,6 +11,7 @@ from studies.error.levels import Level
 from studies.error.measured import Row
 from studies.error.peers.cantilever import LENGTH_M
 from studies.error.pictures import PERCENT
+from studies.needs.counts import committed
 
 IMAGES = "images/performance"
 INTRODUCTION = """# Error against run time
@@ -41,6 +43,19 @@ space, friction that falls as a foot slides makes passes branch (README, Speed):
 even friction, speeds with the presets'.
 """
 
+MAGNETS = 3
+LEFT_OUT = """## What is not varied
+
+- *How often a wrench is computed.* The three wrenches of a step are {plane:.1f} % of its instructions
+  in the plane and {space:.1f} % in space ([needs.md](needs.md)). Holding them for two steps could save
+  half of that at most, for an error of first order. It is not built.
+- *The explicit scheme on the robot.* Its largest stable step for `paper-3` is {limit_us:.2f} µs: beyond
+  it {what} grows ([stability.md](stability.md)). `make validate` compares a pass with the implicit one.
+  It moves with the velocity at the end of a step, so where nothing damps it is symplectic Euler; there
+  is no other symplectic scheme.
+- *Single precision.* It is not built.
+"""
+
 
 def page(
     cases: Sequence[Case],
@@ -54,7 +69,21 @@ def page(
         parts.append(section(case, [row for row in rows if row.case == case.name]))
         if case.name == "cantilever" and peers:
             parts.append(peer_table(peers))
+    parts.append(left_out())
     return "\n".join(parts)
+
+
+def left_out() -> str:
+    """Axes that are not varied, with what they could give."""
+    counted = committed()
+    shares = {
+        dimension: MAGNETS * counted[f"wrench-{dimension}"] / counted[f"step-{dimension}"]
+        for dimension in ("plane", "space")
+    }
+    limit_s, what = Scene.preset("paper-3").explicit_limit()
+    return LEFT_OUT.format(
+        plane=PERCENT * shares["plane"], space=PERCENT * shares["space"], limit_us=1e6 * limit_s, what=what
+    )
 
 
 def percent(error: float, uncertainty: float) -> str:
