@@ -48,7 +48,7 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning
 
-study-error: install-test  ## error against run time, five minutes: docs/performance.md
+study-error: install-test  ## error against run time: docs/performance.md; minutes
 	$(VENV_PYTHON) -m studies.error
 
 study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes

@@ -10,6 +10,7 @@ from studies.error.case import Axis, Case, Outcome
 from studies.error.settings import Settings
 from studies.paper.lift import HOLD_S, LOW_M, RISE_S, middle_lift
 from studies.paper.scenes import AHEAD_M, PLANE_M, under_middle
+from studies.step_error import EVEN_FRICTION
 from studies.turning.passes import Drive, outcome_of
 
 MM = 1e3
@@ -21,8 +22,6 @@ EULER_MS = (5.0, 2.0, 1.0, 0.5, 0.2)
 EXPLICIT_MS = (0.02, 0.01, 0.005)
 MESHES = (2, 4, 8, 12)
 ORDERS = (0, 1, 2, 3)
-EVEN_FRICTION = 0.9
-"""Coefficient of the case in space, at rest and in motion."""
 ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 ROD_MESHES = (9, 18, 27, 54, 108)
 SLOPE_DEG, SLOPE_FRICTION, GRAVITY_M_S2 = 60.0, 0.6, 9.81

@@ -5,7 +5,6 @@ python -m studies.growth    # docs/growth.md, docs/images/growth.png, studies/gr
 
 import argparse
 import csv
-import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from studies.growth.picture import picture
 from studies.growth.sweeps import SWEEPS
 from studies.paper.figures import save
 from studies.ppo_share import CASES, rows, share
+from studies.stopwatch import Stopwatch
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent.parent / "docs"
@@ -27,10 +27,7 @@ def main() -> None:
     argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     ).parse_args()
-    start = time.perf_counter()
-
-    def said(name: str) -> None:
-        print(f"{name:<22}{time.perf_counter() - start:6.1f} s", flush=True)
+    said = Stopwatch().said
 
     # First, while this process holds little.
     memories = {space: memory(space) for space in PLACES}

@@ -4,7 +4,6 @@ python -m studies.needs    # docs/needs.md
 """
 
 import argparse
-import time
 from pathlib import Path
 
 from studies.needs.counts import count_all, tasks
@@ -12,6 +11,7 @@ from studies.needs.effects import EFFECTS, SIDES, count_phases
 from studies.needs.orders import force_errors
 from studies.needs.page import page
 from studies.needs.wrenches import pair_of, reach_of, scenes
+from studies.stopwatch import Stopwatch
 
 PAGE = Path(__file__).parent.parent.parent / "docs" / "needs.md"
 
@@ -21,10 +21,7 @@ def main() -> None:
     argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     ).parse_args()
-    start = time.perf_counter()
-
-    def said(name: str) -> None:
-        print(f"{name:<10}{time.perf_counter() - start:6.1f} s", flush=True)
+    said = Stopwatch().said
 
     counts = count_all(tasks())
     said("counts")

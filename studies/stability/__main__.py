@@ -5,7 +5,6 @@ python -m studies.stability --long    # every value in space as well, and every 
 """
 
 import argparse
-import time
 from pathlib import Path
 
 from studies.paper.figures import save
@@ -16,6 +15,7 @@ from studies.stability.energy import swings
 from studies.stability.limits import limits
 from studies.stability.page import IMAGES, page
 from studies.stability.pictures import robot_map, rod_map
+from studies.stopwatch import Stopwatch
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent.parent / "docs"
@@ -29,10 +29,7 @@ def main() -> None:
     )
     parser.add_argument("--long", action="store_true", help="all values in space, every pair of axes")
     long = parser.parse_args().long
-    start = time.perf_counter()
-
-    def said(name: str) -> None:
-        print(f"{name:<10}{time.perf_counter() - start:6.1f} s", flush=True)
+    said = Stopwatch().said
 
     found = limits()
     said("limits")

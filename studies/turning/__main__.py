@@ -4,10 +4,10 @@ python -m studies.turning    # docs/turning.md, docs/images/turning/, studies/tu
 """
 
 import argparse
-import time
 from pathlib import Path
 
 from studies.paper.figures import save
+from studies.stopwatch import Stopwatch
 from studies.turning.data import plane_csv, points_csv, tipping_csv
 from studies.turning.page import IMAGES, page
 from studies.turning.passes import outcomes, points
@@ -24,10 +24,7 @@ def main() -> None:
     argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     ).parse_args()
-    start = time.perf_counter()
-
-    def said(name: str) -> None:
-        print(f"{name:<10}{time.perf_counter() - start:6.1f} s", flush=True)
+    said = Stopwatch().said
 
     plane = comparisons()
     said("plane")

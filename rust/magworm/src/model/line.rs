@@ -63,7 +63,7 @@ impl Line {
             return (0.0, 0);
         }
         let mut high = 2.0 * low;
-        while factors(self.shifted(high)).is_none() {
+        while high.is_finite() && factors(self.shifted(high)).is_none() {
             (low, high) = (high, 2.0 * high);
         }
         while high - low > CLOSE * high {
