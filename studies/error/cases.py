@@ -26,6 +26,16 @@ ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 ROD_MESHES = (9, 18, 27, 54, 108)
 SLOPE_DEG, SLOPE_FRICTION, GRAVITY_M_S2 = 60.0, 0.6, 9.81
 
+PLANE_AXES = (
+    Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
+    Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
+    Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
+    Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
+)
+PLANE_GRID = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
+PLANE_REFERENCE, PLANE_CHECK = Settings(0.1, 16, 4), Settings(0.2, 12, 3)
+"""Of the robot in the plane: what is varied, the grid of the front, the converged settings and coarser ones."""
+
 
 def tracks(records: Sequence[Recording], axes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     """Places of all magnets (R, T, M, axes) [m]."""
@@ -38,7 +48,6 @@ def crawl() -> Case:
     for height_mm in HEIGHTS_MM:
         place = {"x_m": -AHEAD_M, "y_m": float(height_mm) / MM, "speed_m_s": SPEED_M_S}
         scenes.append(Scene.preset("paper-3").with_values({"drive.motion": {"kind": "constant", **place}}))
-    grid = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
     return Case(
         name="crawl",
         title="A crawling pass",
@@ -50,19 +59,14 @@ def crawl() -> Case:
         duration_s=PASS_S,
         sample_s=0.02,
         read=read_crawl,
-        axes=(
-            Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
-            Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
-            Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
-            Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
-        ),
+        axes=PLANE_AXES,
         front=[
-            *grid,
+            *PLANE_GRID,
             *(Settings(step, 4, 1) for step in (5.0, 2.0)),
             *(Settings(step, 4, integrator="euler") for step in EULER_MS),
         ],
-        reference=Settings(0.1, 16, 4),
-        check=Settings(0.2, 12, 3),
+        reference=PLANE_REFERENCE,
+        check=PLANE_CHECK,
     )
 
 
@@ -87,15 +91,10 @@ def lift() -> Case:
         duration_s=RISE_S + HOLD_S,
         sample_s=0.02,
         read=read_lift,
-        axes=(
-            Axis("step", [Settings(step) for step in STEPS_MS], Settings(0.05)),
-            Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
-            Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
-            Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
-        ),
-        front=[Settings(step, mesh) for mesh in MESHES for step in STEPS_MS],
-        reference=Settings(0.1, 16, 4),
-        check=Settings(0.2, 12, 3),
+        axes=PLANE_AXES,
+        front=PLANE_GRID,
+        reference=PLANE_REFERENCE,
+        check=PLANE_CHECK,
     )
 
 
