@@ -34,7 +34,7 @@ PLANE_AXES = (
 )
 PLANE_GRID = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
 PLANE_REFERENCE, PLANE_CHECK = Settings(0.1, 16, 4), Settings(0.2, 12, 3)
-"""Of the robot in the plane: what is varied, the grid of the front, the converged settings and coarser ones."""
+"""Of the robot in the plane: what is varied, the front, the converged settings and coarser ones."""
 
 
 def tracks(records: Sequence[Recording], axes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
