@@ -111,7 +111,9 @@ fn lay_straight<const W: usize>(
     for rows in block.state_rows_mut().into_iter().take(6) {
         rows.iter_mut().for_each(|row| row[lane] = 0.0);
     }
-    block.twist.iter_mut().for_each(|row| row[lane] = 0.0);
+    for rows in [&mut block.twist, &mut block.wrench] {
+        rows.iter_mut().for_each(|row| row[lane] = 0.0);
+    }
     block.step_count[0][lane] = 0.0;
     let axes = model.dimensions();
     let (sin, cos) = sin_cos(start.angle_rad);

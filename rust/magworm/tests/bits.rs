@@ -148,6 +148,14 @@ fn scalar_and_wide_lanes_give_equal_bits_on_waypoints() {
     lanes_agree("waypoints in space", 150, 3);
 }
 
+/// Robots start afresh between two control steps, and every third of these is followed by three solver steps; so robots
+/// side by side are due in different steps.
+#[test]
+fn scalar_and_wide_lanes_give_equal_bits_where_wrenches_are_held() {
+    lanes_agree("held wrenches", 300, 3);
+    lanes_agree("held wrenches in space", 150, 3);
+}
+
 #[test]
 fn any_number_of_threads_gives_equal_bits() {
     let robots: Vec<u64> = (0..61).collect();

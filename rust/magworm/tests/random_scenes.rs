@@ -150,6 +150,8 @@ fn short(mut scene: Scene) -> Scene {
     let control_steps = (scene.control.episode_s / scene.control.step_s).round();
     scene.control.step_s = solver_steps * scene.solver.step_s;
     scene.control.episode_s = control_steps * scene.control.step_s;
+    let interval = scene.solver.wrench_interval;
+    scene.solver = scene_strategy::with_interval(scene.solver, &scene.control, interval);
     scene.solver.contact_iterations = scene.solver.contact_iterations.min(100);
     scene
 }

@@ -104,8 +104,14 @@ fn about_to_break(model: &Arc<Model>, lanes: LaneChoice, threads: usize) -> Batc
 
 #[test]
 fn a_rollout_equals_stepping_bit_for_bit() {
-    for scene in ["three magnets", "belt", "cantilever", "three magnets in space", "belt in space"]
-    {
+    for scene in [
+        "three magnets",
+        "belt",
+        "cantilever",
+        "held wrenches",
+        "three magnets in space",
+        "belt in space",
+    ] {
         let model = model(scene);
         let actions = actions(&model, ROBOTS.len(), CONTROL_STEPS);
         let plan = Plan { control_steps: CONTROL_STEPS, actions: &actions };
@@ -154,7 +160,7 @@ fn what_is_not_wanted_is_not_written_and_changes_nothing() {
 
 #[test]
 fn copies_go_on_as_their_originals_and_leave_them_alone() {
-    for scene in ["dipoles with varied parameters", "three magnets in space"] {
+    for scene in ["dipoles with varied parameters", "held wrenches", "three magnets in space"] {
         for lanes in [Wide, Scalar] {
             let model = model(scene);
             let mut batch = about_to_break(&model, lanes, 2);

@@ -38,6 +38,7 @@ fn refuses_numbers_out_of_range_with_their_unit() {
         ("drive.motion.speed_m_s", "210", "is 210 m/s; allowed: 1e-4 to 10 m/s"),
         ("solver.step_s", "2", "is 2 s; allowed: 1e-7 to 0.05 s"),
         ("solver.quadrature_order", "11", "is 11; allowed: a whole number from 1 to 10"),
+        ("solver.wrench_interval", "0", "is 0; allowed: a whole number from 1 to 10000"),
     ] {
         refuses(scene, path, value, &format!("{path} {rest}"));
     }
@@ -289,12 +290,23 @@ fn refuses_periods_that_are_not_whole() {
             "5e-6",
             "solver.step_s is 5e-6 s; allowed: 1e-5 s or more for newmark and euler",
         ),
+        (
+            "solver.wrench_interval",
+            "3",
+            "solver.wrench_interval is 3; allowed: a divisor of 10, the solver steps in control.step_s = 0.02 s",
+        ),
+        (
+            "solver.wrench_interval",
+            "20",
+            "solver.wrench_interval is 20; allowed: a divisor of 10, the solver steps in control.step_s = 0.02 s",
+        ),
     ] {
         refuses("example", path, value, sentence);
     }
     let explicit = [("solver.integrator", Some("\"explicit\"")), ("solver.step_s", Some("1e-7"))];
     assert!(edited("example", &explicit).is_ok());
     assert!(edited("example", &[("solver.step_s", Some("0.0033333333333333335"))]).is_ok());
+    assert!(edited("example", &[("solver.wrench_interval", Some("10"))]).is_ok());
 }
 
 #[test]

@@ -183,7 +183,7 @@ proptest! {
         mut scene in scene(50),
         number in prop::num::f64::ANY,
         count in any::<usize>(),
-        place in 0..10,
+        place in 0..11,
     ) {
         match place {
             0 => scene.gravity_m_s2 = number,
@@ -195,6 +195,7 @@ proptest! {
             6 => scene.start.height_m = number,
             7 => scene.start.yaw_deg = number,
             8 => scene.dimensions = count,
+            9 => scene.solver.wrench_interval = count,
             _ => match &mut scene.body {
                 Body::Worm(worm) => worm.removed.push(count),
                 Body::Rod(rod) => rod.elements = count,

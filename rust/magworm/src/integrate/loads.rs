@@ -1,9 +1,10 @@
 //! Impulses of gravity and magnets.
 
+use super::hold;
 use crate::drive::DriveModel;
 use crate::elastic;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Isa, Mask, Real};
 use crate::model::{Magnetics, Model, PairModel, body_size};
 use crate::state::Block;
 
@@ -32,18 +33,28 @@ pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
     if program.magnetics.is_none() && program.uniform_field.is_none() {
         return;
     }
+    let interval = program.magnetics.as_ref().map_or(1, |magnetics| magnetics.interval);
+    let due = if interval > 1 { Some(hold::due(isa, block, interval)) } else { None };
+    let computes = match due {
+        Some(due) => due.any(),
+        None => true,
+    };
     let robot = crate::step::robot_centre(isa, model, block);
     let turn = if D == 3 { sin_cos(isa.load(&block.stage[3])) } else { (robot, robot) };
     for body in 0..model.magnets() {
         let dof = model.coordinates.bodies[body];
         let mut wrench = [isa.splat(0.0); WRENCH];
-        if let (Some(magnetics), Some(drive)) = (&program.magnetics, &program.drive) {
+        if let (true, Some(magnetics), Some(drive)) = (computes, &program.magnetics, &program.drive)
+        {
             if D == 2 {
                 planar_wrench(isa, magnetics, drive, block, [body, dof], robot, &mut wrench);
             } else {
                 let place = [body, dof];
                 spatial_wrench(isa, magnetics, drive, block, place, robot, turn, &mut wrench);
             }
+        }
+        if let Some(due) = due {
+            hold::hold::<W, D, I>(isa, block, body, due, &mut wrench);
         }
         if program.uniform_field.is_some() {
             uniform_torque::<W, D, I>(isa, model, block, body, &mut wrench);

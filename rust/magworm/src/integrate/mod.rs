@@ -4,6 +4,7 @@
 //! unknowns and in what goes into A and b.
 
 mod explicit;
+mod hold;
 mod implicit;
 mod loads;
 
@@ -13,6 +14,7 @@ use crate::model::Model;
 use crate::scene::{Integrator, Parameter};
 use crate::state::Block;
 
+pub use hold::rows as held_rows;
 pub use loads::{gravity, magnets};
 
 /// Begins matrix and right-hand side of a step: inertia alone.

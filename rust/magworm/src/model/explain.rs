@@ -79,7 +79,11 @@ impl Model {
             PairModel::Dipole(_) | PairModel::SpatialDipole(_) => "dipoles".to_string(),
         };
         let pairs = drive.layout.offset_m.len() * self.magnets();
-        format!("{pairs} wrenches a step, {pair}")
+        let often = match magnetics.interval {
+            1 => "a step".to_string(),
+            n => format!("every {n} steps, held between"),
+        };
+        format!("{pairs} wrenches {often}, {pair}")
     }
 
     fn explain_field(&self) -> String {

@@ -14,6 +14,8 @@ pub struct Magnetics {
     pub terms: [f64; 6],
     /// |Br| of a drive magnet [T].
     pub drive_remanence_t: f64,
+    /// Steps for which a wrench acts; 1: it is computed in each, and nothing is held.
+    pub interval: u64,
 }
 
 /// A model of two magnets.
@@ -54,6 +56,7 @@ impl Magnetics {
             pair,
             terms: acts.map(|on| if on { 1.0 } else { 0.0 }),
             drive_remanence_t: drive.remanence_t,
+            interval: scene.solver.wrench_interval as u64,
         }
     }
 }

@@ -70,11 +70,12 @@ pub(super) fn expand(scene: &mut Table) -> Result<(), Problem> {
 }
 
 /// Fields that a word writes; those of the body for worms alone.
-const CHOSEN: [(&str, &str); 6] = [
+const CHOSEN: [(&str, &str); 7] = [
     ("solver", "integrator"),
     ("solver", "step_s"),
     ("solver", "magnet_model"),
     ("solver", "quadrature_order"),
+    ("solver", "wrench_interval"),
     ("body", "elements_per_bridge"),
     ("body", "elements_per_foot_end"),
 ];
@@ -99,6 +100,7 @@ pub(super) fn choose(scene: &mut Table, word: &Value) -> Result<(), Problem> {
         Value::from(level.step_s[usize::from(space)]),
         Value::from("cuboid"),
         Value::from(level.quadrature_order),
+        Value::from(1),
         Value::from(level.elements_per_bridge),
         Value::from(level.elements_per_foot_end),
     ];
@@ -114,6 +116,7 @@ pub(super) fn choose(scene: &mut Table, word: &Value) -> Result<(), Problem> {
 
 #[cfg(test)]
 mod tests {
+    use super::CHOSEN;
     use crate::scene::Scene;
 
     fn with(word: &str) -> Result<Scene, String> {
@@ -143,6 +146,15 @@ mod tests {
     }
 
     #[test]
+    fn every_word_computes_wrenches_in_every_step() {
+        let holds = [("solver.wrench_interval".to_string(), Some(5.into()))];
+        let holding = Scene::preset("paper-3").and_then(|scene| scene.with_values(&holds));
+        let word = [("solver.accuracy".to_string(), Some("reference".into()))];
+        let scene = holding.expect("a divisor").with_values(&word);
+        assert_eq!(scene.expect("a word").solver.wrench_interval, 1);
+    }
+
+    #[test]
     fn a_word_that_is_none_is_refused() {
         let message = with("exact").expect_err("not a word");
         assert_eq!(
@@ -162,7 +174,7 @@ mod tests {
     #[test]
     fn a_file_may_leave_the_rest_out() {
         let text = Scene::preset("paper-3").expect("a preset").to_toml();
-        let chosen = ["integrator", "step_s", "magnet_model", "quadrature_order", "elements_per_"];
+        let chosen: Vec<&str> = CHOSEN.iter().map(|(_, field)| *field).collect();
         let mut in_solver_or_body = false;
         let mut kept = String::new();
         for line in text.lines() {

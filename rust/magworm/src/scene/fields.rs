@@ -9,6 +9,8 @@ use super::schema::{Kind, Table, Variant, optional, real, required, whole};
 pub(super) const MOST_MAGNETS: i64 = 32;
 /// Most drive magnets.
 pub(super) const MOST_DRIVE_MAGNETS: i64 = 16;
+/// Most steps for which a wrench acts.
+const MOST_STEPS_OF_A_WRENCH: i64 = 10_000;
 /// Greatest speed of a drive [m/s].
 pub(super) const GREATEST_DRIVE_SPEED_M_S: f64 = 10.0;
 /// Greatest speed of yaw of a drive between waypoints [°/s].
@@ -214,6 +216,7 @@ static SOLVER: Table = Table {
         optional("step_s", SHORT),
         optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
         optional("quadrature_order", whole(1, 10)),
+        optional("wrench_interval", whole(1, MOST_STEPS_OF_A_WRENCH)),
         optional("contact_iterations", whole(1, 1000)),
         optional("curvature", Kind::Choice(&["angle", "tangent"])),
     ],

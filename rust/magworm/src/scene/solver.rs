@@ -14,6 +14,9 @@ pub struct Solver {
     pub magnet_model: MagnetModel,
     /// Gauss–Legendre points per edge of a charged face.
     pub quadrature_order: usize,
+    /// Solver steps for which a wrench of the drive acts before it is computed anew; 1: it is computed in every step. Divides
+    /// the steps of a control step, so that each begins with a new wrench. What is lost and gained: docs/performance.md.
+    pub wrench_interval: usize,
     /// Most trials of the contact solve per step, shared out among its iterations, see [`crate::contact`].
     pub contact_iterations: usize,
     /// Discrete curvature of the rod.
@@ -27,6 +30,7 @@ impl Default for Solver {
             step_s: 2e-3,
             magnet_model: MagnetModel::Cuboid,
             quadrature_order: 3,
+            wrench_interval: 1,
             contact_iterations: 120,
             curvature: Curvature::Angle,
         }

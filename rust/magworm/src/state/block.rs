@@ -3,6 +3,7 @@
 use super::rows::Rows;
 use crate::contact::Workspace;
 use crate::drive::stage_axes;
+use crate::integrate::held_rows;
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -105,6 +106,9 @@ pub struct Block<const W: usize> {
     pub director: Rows<W>,
     /// In space twist of each bending node [rad], beyond ±π where it has gone there, shape [bending nodes].
     pub twist: Rows<W>,
+    /// Force [N] and torque [N·m] of the drive on each body magnet where they act for several steps, see
+    /// [`crate::model::Magnetics::interval`], shape [magnets × 3], in space [magnets × 6]; else none.
+    pub wrench: Rows<W>,
     /// Status of each environment.
     pub status: [Status; W],
 
@@ -167,6 +171,7 @@ impl<const W: usize> Block<W> {
             held: zeros(dimensions * model.mesh.fixed_nodes),
             director: in_space(6 * elements),
             twist: in_space(model.bend.len()),
+            wrench: zeros(held_rows(model)),
             status: [Status::Unused; W],
             mass: zeros(unknowns),
             remanence: zeros(magnets),
@@ -188,7 +193,7 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows that change in time, in the order of a snapshot.
-    pub fn state_rows(&self) -> [&Rows<W>; 15] {
+    pub fn state_rows(&self) -> [&Rows<W>; 16] {
         [
             &self.q,
             &self.v,
@@ -205,11 +210,12 @@ impl<const W: usize> Block<W> {
             &self.held,
             &self.director,
             &self.twist,
+            &self.wrench,
         ]
     }
 
     /// The rows of [`Self::state_rows`], to be written.
-    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 15] {
+    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 16] {
         [
             &mut self.q,
             &mut self.v,
@@ -226,6 +232,7 @@ impl<const W: usize> Block<W> {
             &mut self.held,
             &mut self.director,
             &mut self.twist,
+            &mut self.wrench,
         ]
     }
 }

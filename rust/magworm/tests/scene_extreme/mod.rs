@@ -4,7 +4,7 @@ use magworm::scene::*;
 use proptest::prelude::*;
 
 use crate::scene_strategy::dice::{Dice, dice};
-use crate::scene_strategy::within_the_limit;
+use crate::scene_strategy::{with_interval, within_the_limit};
 
 /// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
 const RUBBER_KG_M3: f64 = 1070.0;
@@ -17,7 +17,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
         let steps = rest.whole(1, 40) as f64;
         let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
         let motion = drive_motion(&mut world, dimensions);
-        within_the_limit(Scene {
+        let mut scene = Scene {
             name: "extreme".into(),
             gravity_m_s2: rest.between(0.0, 981.0),
             dimensions,
@@ -43,7 +43,9 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
             control: Control { step_s: steps * solver.step_s, episode_s: steps * solver.step_s },
             solver,
             reset: Reset::default(),
-        })
+        };
+        scene.solver = with_interval(scene.solver, &scene.control, rest.whole(1, 12));
+        within_the_limit(scene)
     })
 }
 
@@ -127,6 +129,7 @@ fn solver(dice: &mut Dice) -> Solver {
         step_s: dice.decades(1e-5, 0.05),
         magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Cuboid, MagnetModel::Dipole]),
         quadrature_order: dice.whole(1, 3),
+        wrench_interval: 1,
         contact_iterations: 120,
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
     }

@@ -32,6 +32,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 mut reset,
                 name,
             )| {
+                let control = control(&mut time, &solver);
                 Scene {
                     name,
                     gravity_m_s2: rest.between(0.0, 981.0),
@@ -44,8 +45,8 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     ground,
                     drive,
                     field,
-                    control: control(&mut time, &solver),
-                    solver,
+                    solver: with_interval(solver, &control, time.whole(1, 12)),
+                    control,
                     reset: random_reset(&mut reset),
                 }
             },
@@ -91,7 +92,8 @@ fn with_step(mut scene: Scene, step_s: f64) -> Scene {
         (scene.control.episode_s / scene.control.step_s).round().min((1e5 / control_s).floor());
     scene.solver.step_s = step_s;
     scene.control = Control { step_s: control_s, episode_s: episodes * control_s };
-    scene
+    let interval = scene.solver.wrench_interval;
+    Scene { solver: with_interval(scene.solver, &scene.control, interval), ..scene }
 }
 
 fn material(dice: &mut Dice) -> Material {
@@ -148,9 +150,19 @@ fn solver(dice: &mut Dice) -> Solver {
         step_s: dice.decades(shortest_s, 0.05),
         magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Dipole]),
         quadrature_order: dice.whole(1, 10),
+        wrench_interval: 1,
         contact_iterations: dice.whole(1, 1000),
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
     }
+}
+
+/// Wrenches that act for as many steps as an interval and those of a control step have as their greatest common divisor.
+pub fn with_interval(solver: Solver, control: &Control, interval: usize) -> Solver {
+    let (mut divisor, mut rest) = ((control.step_s / solver.step_s).round() as usize, interval);
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    Solver { wrench_interval: divisor, ..solver }
 }
 
 fn control(dice: &mut Dice, solver: &Solver) -> Control {

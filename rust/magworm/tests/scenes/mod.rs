@@ -47,6 +47,11 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
         )],
     ),
     (
+        "held wrenches",
+        "paper-3",
+        &[("solver.wrench_interval", "5"), ("field", "{ x_t = 0.001, y_t = -0.002 }")],
+    ),
+    (
         "three magnets in space",
         "paper-3",
         &[
@@ -116,6 +121,16 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("ground.adhesion_n", "1e-4"),
             ("drive.arrangement", "{ kind = 'pair', spacing_m = 0.06, second_polarity = -1 }"),
             ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
+        ],
+    ),
+    (
+        "held wrenches in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.04"),
+            ("drive.motion.yaw_reach_deg", "120"),
+            ("solver.wrench_interval", "2"),
         ],
     ),
     (

@@ -22,6 +22,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
         || format!("{} or more for newmark and euler", quantity(SHORTEST_IMPLICIT_STEP_S, "s")),
     )?;
     whole_number("control.step_s", control.step_s, "solver.step_s", step_s)?;
+    wrench_interval(scene)?;
     whole_number("control.episode_s", control.episode_s, "control.step_s", control.step_s)?;
     variations(scene)
 }
@@ -32,6 +33,17 @@ fn whole_number(field: &str, period_s: f64, part: &str, part_s: f64) -> Result<(
     let holds = (1.0..=MOST_STEPS).contains(&whole) && (ratio - whole).abs() <= WHOLE * whole;
     require(holds, field, quantity(period_s, "s"), || {
         format!("1 to 1e8 times {part} = {}, a whole number of times", quantity(part_s, "s"))
+    })
+}
+
+/// A wrench that acted on into the next control step would be state that no observation shows, and would bring actions to
+/// bear with a delay that differs from one control step to the next.
+fn wrench_interval(scene: &Scene) -> Result<(), Problem> {
+    let (interval, control_s) = (scene.solver.wrench_interval, scene.control.step_s);
+    let steps = (control_s / scene.solver.step_s).round() as usize;
+    require(steps.is_multiple_of(interval), "solver.wrench_interval", interval.to_string(), || {
+        let control = quantity(control_s, "s");
+        format!("a divisor of {steps}, the solver steps in control.step_s = {control}")
     })
 }
 

@@ -1,0 +1,46 @@
+//! Wrenches of the drive that act for several steps (`solver.wrench_interval`).
+//!
+//! Each lane computes its wrenches in the steps whose number since its reset is a multiple of the interval n; in the n − 1 steps
+//! that follow, force [N] and torque [N·m] keep their components along x, y and z. What acts is (n − 1)/2 steps old on the
+//! average, so the error is of first order in that age τ; a force that holds a magnet in place then feeds its motion,
+//! −k x(t − τ) ≈ −k x + k τ v. The torque of a uniform field is not held: it costs next to nothing.
+//!
+//! Lanes may have been reset at different times. Where one is due, the block computes the wrenches of all its lanes, and each
+//! takes them or keeps its own; so the bits of a lane do not depend on when its neighbours were reset.
+
+use crate::lanes::{Isa, Real};
+use crate::model::{Model, body_size};
+use crate::state::Block;
+
+/// Lanes that run and take new wrenches in this step.
+#[inline(always)]
+pub fn due<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, interval: u64) -> I::M {
+    let mut since = [0.0; W];
+    for lane in 0..W {
+        since[lane] = (block.step_count[0][lane] as u64 % interval) as f64;
+    }
+    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
+    running & isa.load(&since).eq(isa.splat(0.0))
+}
+
+/// Keeps the new wrench of a body magnet in the lanes that are due, and gives the others the one that they hold.
+#[inline(always)]
+pub fn hold<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    block: &mut Block<W>,
+    body: usize,
+    due: I::M,
+    wrench: &mut [I::F; 6],
+) {
+    for k in 0..body_size(D) {
+        let row = &mut block.wrench[body_size(D) * body + k];
+        wrench[k] = I::F::select(due, wrench[k], isa.load(row));
+        isa.store(wrench[k], row);
+    }
+}
+
+/// Rows that hold the wrenches of a model: none where each acts for one step.
+pub fn rows(model: &Model) -> usize {
+    let holds = model.program.magnetics.as_ref().is_some_and(|magnetics| magnetics.interval > 1);
+    if holds { body_size(model.dimensions()) * model.magnets() } else { 0 }
+}
