@@ -9,7 +9,7 @@ from pathlib import Path
 from studies.needs.counts import count_all, tasks
 from studies.needs.effects import EFFECTS, SIDES, count_phases
 from studies.needs.orders import force_errors
-from studies.needs.page import page
+from studies.needs.page import HELD, page
 from studies.needs.wrenches import pair_of, reach_of, scenes
 from studies.stopwatch import Stopwatch
 
@@ -27,7 +27,8 @@ def main() -> None:
     said("counts")
     named = ["step", "air", "no-ground", *(effect.with_it for effect in EFFECTS if effect.phases)]
     both = [f"{name}-{side}" for name in dict.fromkeys(named) for side in SIDES]
-    of_phases = count_phases((*both, "belt-plane", "belt-16-plane"))
+    held = [task for _, _, task in HELD]
+    of_phases = count_phases((*both, "belt-plane", "belt-16-plane", *held))
     said("phases")
     found = scenes()
     reaches = {name: reach_of(scene) for name, scene in found.items()}

@@ -11,6 +11,13 @@ from studies.paper.wording import listed
 
 Counts = Mapping[str, float]
 
+HELD = (
+    ("paper-3", "step-plane", "held-plane"),
+    ("turn-3", "step-space", "held-space"),
+    ("belt-125 with 16", "belt-16-plane", "held-belt-16-plane"),
+)
+"""Scenes with the tasks that compute wrenches in every step and in one of five."""
+
 INTRODUCTION = """# Only what a scene needs
 
 Written by `make study-needs`; do not edit. What a solver step costs, in instructions of a block of eight
@@ -41,6 +48,7 @@ def page(
         _air(counts, of_phases),
         _reach(reaches),
         _orders(counts, of_phases, reaches, errors),
+        _held(of_phases),
     ]
     return "\n".join(parts) + "\n"
 
@@ -252,3 +260,20 @@ def _saving(
     saved = reach.order_1_blocks * magnets * (1.0 - _order_1(side, counts))
     cells = [f"{magnets:.1%}", f"{1e3 * reach.order_1_m:.0f}", f"{reach.order_1_blocks:.1%}", f"{saved:.1%}"]
     return [f"`{name}`", *cells]
+
+
+def _held(of_phases: Mapping[str, Counts]) -> str:
+    rows = []
+    for name, every, held in HELD:
+        magnets, rest = of_phases[every]["magnets"], of_phases[held]["magnets"]
+        saved = (magnets - rest) / sum(of_phases[every].values())
+        rows.append([f"`{name}`", f"{magnets:,.0f}", f"{rest:,.0f}", f"{saved:.1%}"])
+    header = ["scene", "phase *magnets*, every step", "one step in five", "saving of a step"]
+    return f"""
+## Wrenches that act for several steps
+
+With `solver.wrench_interval = 5` a step computes the wrenches, and the four that follow take them as they
+were. What that does to trajectories is in [performance.md](performance.md#how-often-a-wrench-is-computed).
+A scene without it holds no numbers, and its step asks once whether it should.
+
+{table(header, rows)}"""

@@ -90,6 +90,9 @@ const GROUND: Edits = &[
 ];
 /// Sixteen drive magnets, most of them far away.
 const BELT: Edits = &[("drive.arrangement.count", "16")];
+/// Wrenches that act for five steps.
+const HELD: Edits = &[("solver.wrench_interval", "5")];
+const BELT_HELD: Edits = &[("drive.arrangement.count", "16"), ("solver.wrench_interval", "5")];
 
 /// All tasks.
 pub const CASES: &[Case] = &[
@@ -127,4 +130,7 @@ pub const CASES: &[Case] = &[
     case("ground-space", Work::Block, "turn-3", GROUND),
     case("belt-plane", Work::Block, "belt-125", &[]),
     case("belt-16-plane", Work::Block, "belt-125", BELT),
+    case("held-plane", Work::Block, "paper-3", HELD),
+    case("held-space", Work::Block, "turn-3", HELD),
+    case("held-belt-16-plane", Work::Block, "belt-125", BELT_HELD),
 ];
