@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.error.case import Outcome
-from studies.error.cases import CASES, incline
+from studies.error.case import Axis, Outcome
+from studies.error.cases import CASES, crawl, incline
 from studies.error.errors import errors, figure_error, pose_error_mm
 from studies.error.front import pareto, size
+from studies.error.held import age_ms, held
 from studies.error.measured import Row, measure, read, write
 from studies.error.page import page, percent
 from studies.error.settings import Settings
@@ -88,3 +89,25 @@ def test_every_case_has_settings_that_differ() -> None:
     for case in CASES.values():
         assert len(case.all_settings()) > 5
         assert case.reference != case.check
+
+
+def test_settings_say_how_long_a_wrench_acts() -> None:
+    settings = Settings(2.0, interval=5)
+    assert settings.changes("worm")["solver.wrench_interval"] == 5
+    assert settings.text() == "Newmark, 2 ms, 4 elements, order 2, a wrench for 5 steps"
+    assert "wrench for" not in Settings(2.0).text()
+
+
+def test_held_wrenches_are_older_and_fewer() -> None:
+    axis = Axis("interval", [Settings(2.0, interval=steps) for steps in (1, 5)], Settings(2.0), costs=True)
+    step = Axis("step", [Settings(2.0)], Settings(1.0))
+    one = replace(crawl(), scenes=crawl().scenes[16:18], axes=[step, axis], front=[Settings(5.0)])
+    rows = measure(replace(one, reference=Settings(2.0), check=Settings(5.0)), 1)
+    along = [row for row in rows if (row.part, row.figure) == ("axis interval", "pose")]
+    assert [row.work.wrenches for row in along if row.work] == [1500.0, 300.0]
+    assert along[0].error == 0.0 < along[1].error
+    assert age_ms(along[1].settings) == 4.0
+    said = held([one], rows)
+    assert f"moves the pose by {along[1].error / 4.0:.3f} to" in said
+    assert "by the stride 0 of 1 settings" in said
+    assert "Newmark, 2 ms, 4 elements, order 2, a wrench for 5 steps" in page([one], rows, {}, [])

@@ -29,11 +29,19 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Axis:
-    """Settings of which one value is varied, against a reference that differs in that value alone."""
+    """Settings of which one value is varied, against a reference that differs in that value alone.
+
+    Attributes:
+        name: Of the value.
+        values: The settings.
+        reference: What their errors are against.
+        costs: Whether it is measured what they cost.
+    """
 
     name: str
     values: Sequence[Settings]
     reference: Settings
+    costs: bool = False
 
 
 @dataclass(frozen=True)

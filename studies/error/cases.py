@@ -22,6 +22,9 @@ EULER_MS = (5.0, 2.0, 1.0, 0.5, 0.2)
 EXPLICIT_MS = (0.02, 0.01, 0.005)
 MESHES = (2, 4, 8, 12)
 ORDERS = (0, 1, 2, 3)
+INTERVALS = (1, 2, 5, 10)
+HELD = ((5.0, 2), (2.0, 2), (1.0, 2), (0.5, 2), (0.5, 5))
+"""Steps [ms] of the front where wrenches act for several steps too, and for how many."""
 ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 ROD_MESHES = (9, 18, 27, 54, 108)
 SLOPE_DEG, SLOPE_FRICTION, GRAVITY_M_S2 = 60.0, 0.6, 9.81
@@ -31,6 +34,10 @@ PLANE_AXES = (
     Axis("step", [Settings(step, integrator="euler") for step in EULER_MS], Settings(0.05)),
     Axis("elements", [Settings(0.2, mesh) for mesh in MESHES], Settings(0.2, 16)),
     Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=6)),
+)
+INTERVAL_AXES = tuple(
+    Axis("interval", [Settings(step, interval=held) for held in INTERVALS], Settings(step), costs=True)
+    for step in (2.0, 0.5)
 )
 PLANE_GRID = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
 PLANE_REFERENCE, PLANE_CHECK = Settings(0.1, 16, 4), Settings(0.2, 12, 3)
@@ -59,11 +66,12 @@ def crawl() -> Case:
         duration_s=PASS_S,
         sample_s=0.02,
         read=read_crawl,
-        axes=PLANE_AXES,
+        axes=(*PLANE_AXES, *INTERVAL_AXES),
         front=[
             *PLANE_GRID,
             *(Settings(step, 4, 1) for step in (5.0, 2.0)),
             *(Settings(step, 4, integrator="euler") for step in EULER_MS),
+            *(Settings(step, mesh, interval=held) for mesh in MESHES for step, held in HELD),
         ],
         reference=PLANE_REFERENCE,
         check=PLANE_CHECK,
@@ -207,8 +215,12 @@ def turn() -> Case:
             Axis("step", [Settings(step, integrator="euler") for step in steps], Settings(0.1)),
             Axis("elements", [Settings(0.5, mesh) for mesh in meshes], Settings(0.5, 12)),
             Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=5)),
+            *INTERVAL_AXES,
         ),
-        front=[Settings(step, mesh) for mesh in meshes for step in steps],
+        front=[
+            *(Settings(step, mesh) for mesh in meshes for step in steps),
+            *(Settings(step, mesh, interval=held) for mesh in meshes for step, held in HELD),
+        ],
         reference=Settings(0.2, 12, 3),
         check=Settings(0.5, 8, 3),
     )

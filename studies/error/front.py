@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from studies.error.case import Case
 from studies.error.measured import Row
 
 
@@ -22,3 +23,15 @@ def pareto(rows: Sequence[Row]) -> list[Row]:
         if not best or size(row) < size(best[-1]):
             best.append(row)
     return best
+
+
+def ranked_of(case: Case, rows: Sequence[Row]) -> str:
+    """The figure whose error decides on the front of a case."""
+    return case.ranked or next(row.figure for row in rows if row.part == "front" and row.work is not None)
+
+
+def front_of(rows: Sequence[Row], figure: str) -> list[Row]:
+    """Rows of a figure on the front by its error."""
+    return pareto(
+        [row for row in rows if (row.part, row.figure) == ("front", figure) and row.work is not None]
+    )

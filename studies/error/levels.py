@@ -48,6 +48,7 @@ def read_settings(scene: Scene) -> Settings:
         elements=body["elements_per_bridge"],
         order=solver["quadrature_order"],
         integrator=solver["integrator"],
+        interval=solver["wrench_interval"],
     )
 
 

@@ -17,13 +17,13 @@ class Row:
 
     Attributes:
         case: Its name.
-        part: "axis step", "axis elements", "axis order", "front" or "check".
+        part: "axis step", "axis elements", "axis order", "axis interval", "front" or "check".
         settings: Under which.
         figure: Which; "pose" in millimetres, all others relative.
         error: Of the mean over the runs; not a number where the simulation broke down.
         uncertainty: Its standard error over the runs.
         median: Of the absolute errors of single runs.
-        work: What it costs; none beside the axes.
+        work: What it costs; none along most axes.
     """
 
     case: str
@@ -37,7 +37,7 @@ class Row:
 
 
 COLUMNS = (
-    *("case", "part", "integrator", "step_ms", "elements", "order", "figure"),
+    *("case", "part", "integrator", "step_ms", "elements", "order", "interval", "figure"),
     *("error", "uncertainty", "median", "wall_s", "steps", "systems", "trials", "wrenches"),
 )
 
@@ -51,7 +51,8 @@ def measure(case: Case, repetitions: int) -> list[Row]:
     for axis in case.axes:
         for settings in axis.values:
             of = errors(found[settings], found[axis.reference], {})
-            rows += _rows(case, f"axis {axis.name}", settings, of, None)
+            cost = work(case, settings, repetitions) if axis.costs and of is not None else None
+            rows += _rows(case, f"axis {axis.name}", settings, of, cost)
     reference = found[case.reference]
     rows += _rows(case, "check", case.check, errors(found[case.check], reference, {}), None)
     for settings in case.front:
@@ -82,7 +83,7 @@ def write(rows: Sequence[Row], path: Path) -> None:
         for row in rows:
             s, w = row.settings, row.work
             costs = [] if w is None else [w.wall_s, w.steps, w.systems, w.trials, w.wrenches]
-            head = [row.case, row.part, s.integrator, s.step_ms, s.elements, s.order, row.figure]
+            head = [row.case, row.part, s.integrator, s.step_ms, s.elements, s.order, s.interval, row.figure]
             numbers = [row.error, row.uncertainty, row.median, *costs]
             writer.writerow([*head, *(f"{number:.4g}" for number in numbers)])
 
@@ -95,7 +96,11 @@ def read(path: Path) -> list[Row]:
 
 def _row(values: Mapping[str, str]) -> Row:
     settings = Settings(
-        float(values["step_ms"]), int(values["elements"]), int(values["order"]), values["integrator"]
+        float(values["step_ms"]),
+        int(values["elements"]),
+        int(values["order"]),
+        values["integrator"],
+        int(values["interval"]),
     )
     costs = [values[name] for name in ("wall_s", "steps", "systems", "trials", "wrenches")]
     return Row(

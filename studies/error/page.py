@@ -6,18 +6,19 @@ from collections.abc import Mapping, Sequence
 from magworm_gym import Scene
 from studies.error.case import Case
 from studies.error.errors import Figure
-from studies.error.front import cost_s, pareto
+from studies.error.front import front_of, ranked_of
+from studies.error.held import held
 from studies.error.levels import Level
 from studies.error.measured import Row
 from studies.error.peers.cantilever import LENGTH_M
 from studies.error.pictures import PERCENT
-from studies.needs.counts import committed
+from studies.error.work import Work
 
 IMAGES = "images/performance"
 INTRODUCTION = """# Error against run time
 
-Written by `make study-error`; do not edit. How far from converged a step, a mesh and a quadrature are, and
-what they cost.
+Written by `make study-error`; do not edit. How far from converged a step, a mesh, a quadrature and wrenches
+that act for several steps are, and what they cost.
 
 **Errors** are those of the mean over all runs of a case, with the standard error over the runs after ±, as
 parts of the figure's size; *pose* is the root mean square distance of all followed points from where they
@@ -28,8 +29,8 @@ much a coarser one differs from it, which bounds its own error.
 **Cost** is of one robot-second: wall time on one core with eight environments in the lanes of a vector, 32
 environments whose stiffness differs by up to 2 %, and counters that no machine changes: systems and trials
 of a solver step of eight lanes, wrenches of a drive magnet on a body magnet. Settings that no other beats
-in both error and wall time are on the front; some owe it to errors of step and mesh that cancel, which the
-pose tells.
+in both error and wall time are on the front; some owe it to errors of step, mesh and interval that cancel,
+which the pose tells. Hollow points of a figure are settings whose wrenches act for several steps.
 
 Data: `studies/error/errors.csv`, `peers.csv`.
 """
@@ -43,12 +44,9 @@ space, friction that falls as a foot slides makes passes branch (README, Speed):
 even friction, speeds with the presets'.
 """
 
-MAGNETS = 3
+COST_HEAD = ["robot-s/s of a core", "systems a step", "trials", "wrenches"]
 LEFT_OUT = """## What is not varied
 
-- *How often a wrench is computed.* The three wrenches of a step are {plane:.1f} % of its instructions
-  in the plane and {space:.1f} % in space ([needs.md](needs.md)). Holding them for two steps could save
-  half of that at most, for an error of first order. It is not built.
 - *The explicit scheme on the robot.* Its largest stable step for `paper-3` is {limit_us:.2f} µs: beyond
   it {what} grows ([stability.md](stability.md)). `make validate` compares a pass with the implicit one.
   It moves with the velocity at the end of a step, so where nothing damps it is symplectic Euler; there
@@ -69,21 +67,14 @@ def page(
         parts.append(section(case, [row for row in rows if row.case == case.name]))
         if case.name == "cantilever" and peers:
             parts.append(peer_table(peers))
-    parts.append(left_out())
+    parts += [held(cases, rows), left_out()]
     return "\n".join(parts)
 
 
 def left_out() -> str:
     """Axes that are not varied, with what they could give."""
-    counted = committed()
-    shares = {
-        dimension: MAGNETS * counted[f"wrench-{dimension}"] / counted[f"step-{dimension}"]
-        for dimension in ("plane", "space")
-    }
     limit_s, what = Scene.preset("paper-3").explicit_limit()
-    return LEFT_OUT.format(
-        plane=PERCENT * shares["plane"], space=PERCENT * shares["space"], limit_us=1e6 * limit_s, what=what
-    )
+    return LEFT_OUT.format(limit_us=1e6 * limit_s, what=what)
 
 
 def percent(error: float, uncertainty: float) -> str:
@@ -143,46 +134,42 @@ def error_text(row: Row) -> str:
 
 
 def axis_table(name: str, rows: Sequence[Row]) -> str:
-    """Errors along an axis."""
+    """Errors along an axis, with costs where they are known."""
     chosen = [row for row in rows if row.part == f"axis {name}"]
     figures = list(dict.fromkeys(row.figure for row in chosen if row.figure != "broken"))
+    works = {row.settings: row.work for row in chosen if row.work is not None}
     lines = []
     for settings in dict.fromkeys(row.settings for row in chosen):
         found = {row.figure: error_text(row) for row in chosen if row.settings == settings}
-        lines.append([settings.text(), *(found.get(figure, "broke down") for figure in figures)])
-    return f"Along the {name}:\n\n" + table(["settings", *figures], lines)
+        costs = cost_cells(works.get(settings)) if works else []
+        lines.append([settings.text(), *(found.get(figure, "broke down") for figure in figures), *costs])
+    head = ["settings", *figures, *(COST_HEAD if works else [])]
+    return f"Along the {name}:\n\n" + table(head, lines)
+
+
+def cost_cells(work: Work | None) -> list[str]:
+    """Costs of a robot-second."""
+    if work is None:
+        return ["–"] * len(COST_HEAD)
+    return [
+        f"{1.0 / work.wall_s:,.0f}",
+        f"{work.systems:.2f}",
+        f"{work.trials:.2f}",
+        f"{work.wrenches:,.0f}",
+    ]
 
 
 def front_table(case: Case, rows: Sequence[Row]) -> str:
     """The front, with costs."""
     front = [row for row in rows if row.part == "front" and row.work is not None]
     figures = list(dict.fromkeys(row.figure for row in front))
-    ranked = case.ranked or figures[0]
-    best = pareto([row for row in front if row.figure == ranked])
     lines = []
-    for chosen in best:
+    ranked = ranked_of(case, rows)
+    for chosen in front_of(rows, ranked):
         found = {row.figure: error_text(row) for row in front if row.settings == chosen.settings}
-        work = chosen.work
-        if work is None:
-            continue
-        lines.append(
-            [
-                chosen.settings.text(),
-                *(found[figure] for figure in figures),
-                f"{1.0 / cost_s(chosen):,.0f}",
-                f"{work.systems:.2f}",
-                f"{work.trials:.2f}",
-                f"{work.wrenches:,.0f}",
-            ]
-        )
-    head = [
-        "settings",
-        *figures,
-        "robot-s/s of a core",
-        "systems a step",
-        "trials",
-        "wrenches",
-    ]
+        errors = [found[figure] for figure in figures]
+        lines.append([chosen.settings.text(), *errors, *cost_cells(chosen.work)])
+    head = ["settings", *figures, *COST_HEAD]
     return f"On the front, by the error of the {ranked}:\n\n" + table(head, lines)
 
 

@@ -13,7 +13,12 @@ from studies.error.settings import INTEGRATORS
 from studies.paper.figures import BLUE, INK, ORANGE, RED, TEAL, VIOLET, panels
 
 COLOURS = (BLUE, ORANGE, TEAL, RED, VIOLET)
-LABELS = {"step": "step [ms]", "elements": "elements", "order": "order of the quadrature, 0: dipoles"}
+LABELS = {
+    "step": "step [ms]",
+    "elements": "elements",
+    "order": "order of the quadrature, 0: dipoles",
+    "interval": "steps of a wrench",
+}
 PERCENT = 100.0
 
 
@@ -30,7 +35,18 @@ def scale(figure: str) -> float:
 def value_on(axis: str, row: Row) -> float:
     """Where a row stands on an axis."""
     settings = row.settings
-    return {"step": settings.step_ms, "elements": settings.elements, "order": settings.order}[axis]
+    values = {
+        "step": settings.step_ms,
+        "elements": settings.elements,
+        "order": settings.order,
+        "interval": settings.interval,
+    }
+    return values[axis]
+
+
+def line_of(axis: str, row: Row) -> str:
+    """What sets the lines of a figure apart on an axis."""
+    return f"{row.settings.step_ms:g} ms" if axis == "interval" else INTEGRATORS[row.settings.integrator]
 
 
 def draw_case(case: Case, rows: Sequence[Row], path: Path) -> None:
@@ -44,14 +60,15 @@ def draw_case(case: Case, rows: Sequence[Row], path: Path) -> None:
 
 
 def _draw_axis(name: str, rows: Sequence[Row], panel: Any) -> None:
+    # What is its own reference has no error to draw.
+    drawn = [row for row in rows if row.figure != "broken" and size(row) > 0.0]
     lines: dict[tuple[str, str], list[Row]] = {}
-    for row in rows:
-        if row.figure != "broken":
-            lines.setdefault((row.settings.integrator, row.figure), []).append(row)
+    for row in drawn:
+        lines.setdefault((line_of(name, row), row.figure), []).append(row)
     figures = list(dict.fromkeys(figure for _, figure in lines))
-    integrators = list(dict.fromkeys(integrator for integrator, _ in lines))
-    for (integrator, figure), line in lines.items():
-        look = ("-", ":", "--")[integrators.index(integrator)]
+    kinds = list(dict.fromkeys(kind for kind, _ in lines))
+    for (kind, figure), line in lines.items():
+        look = ("-", ":", "--")[kinds.index(kind)]
         words = f"{figure} [{unit(figure)}]"
         panel.plot(
             [value_on(name, row) for row in line],
@@ -59,10 +76,10 @@ def _draw_axis(name: str, rows: Sequence[Row], panel: Any) -> None:
             look,
             marker="o",
             color=COLOURS[figures.index(figure) % len(COLOURS)],
-            label=words if len(integrators) == 1 else f"{words}, {INTEGRATORS[integrator]}",
+            label=words if len(kinds) == 1 else f"{words}, {kind}",
         )
     panel.set(xlabel=LABELS[name], ylabel="error", yscale="log")
-    values = sorted({value_on(name, row) for row in rows})
+    values = sorted({value_on(name, row) for row in drawn})
     if name != "order":
         panel.set(xscale="log")
     if name != "step":
@@ -74,14 +91,15 @@ def _draw_front(ranked: str, rows: Sequence[Row], panel: Any) -> None:
     first = ranked or rows[0].figure
     shown = [row for row in rows if row.figure == first and row.work is not None]
     meshes = sorted({row.settings.elements for row in shown})
-    for mesh in meshes:
-        points = [row for row in shown if row.settings.elements == mesh]
+    for held, mesh in sorted({(row.settings.interval > 1, row.settings.elements) for row in shown}):
+        points = [row for row in shown if (row.settings.interval > 1, row.settings.elements) == (held, mesh)]
         panel.plot(
             [1.0 / cost_s(row) for row in points],
             [scale(first) * size(row) for row in points],
             "o",
             color=COLOURS[meshes.index(mesh) % len(COLOURS)],
-            label=f"{mesh} elements",
+            markerfacecolor="none" if held else None,
+            label=None if held else f"{mesh} elements",
         )
     best = pareto(shown)
     panel.plot(

@@ -1,4 +1,4 @@
-"""What is varied: integrator, step, mesh and wrench."""
+"""What is varied: integrator, step, mesh, wrench and how often it is computed."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -21,12 +21,14 @@ class Settings:
             its whole length.
         order: Order of the quadrature of the wrench; 0 takes dipoles.
         integrator: Scheme.
+        interval: Steps for which a wrench acts.
     """
 
     step_ms: float
     elements: int = 4
     order: int = 2
     integrator: str = "newmark"
+    interval: int = 1
 
     def changes(self, body: str) -> dict[str, Any]:
         """As values of a scene whose body is a worm or a rod."""
@@ -40,6 +42,7 @@ class Settings:
             values["solver.quadrature_order"] = self.order
         else:
             values["solver.magnet_model"] = "dipole"
+        values["solver.wrench_interval"] = self.interval
         values["body.elements_per_bridge"] = self.elements
         values["body.elements_per_foot_end"] = max(1, self.elements // 4)
         return values
@@ -47,4 +50,7 @@ class Settings:
     def text(self) -> str:
         """In words."""
         wrench = f"order {self.order}" if self.order else "dipoles"
-        return f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms, {self.elements} elements, {wrench}"
+        held = f", a wrench for {self.interval} steps" if self.interval > 1 else ""
+        return (
+            f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms, {self.elements} elements, {wrench}{held}"
+        )
