@@ -4,6 +4,7 @@
 //! all components are of the order of one.
 
 use crate::drive::Path;
+use crate::lanes::Number;
 use crate::lanes::math::{atan2, sin_cos};
 use crate::model::Model;
 use crate::scene::Body;
@@ -150,21 +151,26 @@ pub fn action(model: &Model) -> Vec<Specification> {
 }
 
 /// Writes the observation of one lane.
-pub fn write<const W: usize>(model: &Model, block: &Block<W>, lane: usize, row: &mut [f32]) {
+pub fn write<const W: usize, N: Number>(
+    model: &Model,
+    block: &Block<W, N>,
+    lane: usize,
+    row: &mut [f32],
+) {
     let rest = if model.dimensions() == 2 {
         write_planar(model, block, lane, row)
     } else {
         write_spatial(model, block, lane, row)
     };
     for (k, last) in row[rest..].iter_mut().enumerate() {
-        *last = block.action[k][lane] as f32;
+        *last = block.action[k][lane].f64() as f32;
     }
 }
 
 /// Writes all but the action; how many numbers that are.
-fn write_planar<const W: usize>(
+fn write_planar<const W: usize, N: Number>(
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, N>,
     lane: usize,
     row: &mut [f32],
 ) -> usize {
@@ -176,17 +182,17 @@ fn write_planar<const W: usize>(
     for (magnet, &dof) in model.coordinates.bodies.iter().enumerate() {
         for k in 0..3 {
             let origin = if k == 0 { centre } else { 0.0 };
-            row[k * magnets + magnet] = ((block.q[dof + k][lane] - origin) * scale[k]) as f32;
-            row[(k + 3) * magnets + magnet] = (block.v[dof + k][lane] * scale[k + 3]) as f32;
+            row[k * magnets + magnet] = ((block.q[dof + k][lane].f64() - origin) * scale[k]) as f32;
+            row[(k + 3) * magnets + magnet] = (block.v[dof + k][lane].f64() * scale[k + 3]) as f32;
         }
     }
     let rest = &mut row[6 * magnets..];
     if let Some(drive) = &model.program.drive {
-        let x = drive.layout.position(0, block.stage[0][lane], centre);
+        let x = drive.layout.position(0, block.stage[0][lane].f64(), centre);
         rest[0] = ((x - centre) * per_length) as f32;
-        rest[1] = (block.stage[1][lane] * per_length) as f32;
-        rest[2] = (block.stage[2][lane] * per_speed) as f32;
-        rest[3] = (block.stage[3][lane] * per_speed) as f32;
+        rest[1] = (block.stage[1][lane].f64() * per_length) as f32;
+        rest[2] = (block.stage[2][lane].f64() * per_speed) as f32;
+        rest[3] = (block.stage[3][lane].f64() * per_speed) as f32;
     } else {
         rest[..4].fill(0.0);
     }
@@ -194,9 +200,9 @@ fn write_planar<const W: usize>(
 }
 
 /// Writes all but the action; how many numbers that are.
-fn write_spatial<const W: usize>(
+fn write_spatial<const W: usize, N: Number>(
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, N>,
     lane: usize,
     row: &mut [f32],
 ) -> usize {
@@ -226,7 +232,7 @@ fn write_spatial<const W: usize>(
         put.row[put.at..put.at + 9].fill(0.0);
         return put.at + 9;
     };
-    let stage: [f64; 8] = std::array::from_fn(|k| block.stage[k][lane]);
+    let stage: [f64; 8] = std::array::from_fn(|k| block.stage[k][lane].f64());
     let belt_x = match drive.layout.circumference_m {
         Some(_) => drive.layout.position(0, stage[0], x),
         None => stage[0],

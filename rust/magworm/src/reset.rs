@@ -1,6 +1,7 @@
 //! Initial states: the straight body at rest, and what each environment draws at random.
 
 use crate::drive::{DriveModel, Path, StageModel, stage_axes};
+use crate::lanes::Number;
 use crate::lanes::math::sin_cos;
 use crate::model::{Anchor, Model, Sole};
 use crate::scene::Parameter;
@@ -62,12 +63,12 @@ pub fn scene_start(model: &Model) -> StartPose {
 }
 
 /// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
-pub fn rest<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize) {
+pub fn rest<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, lane: usize) {
     for row in block.factors.iter_mut() {
-        row[lane] = 1.0;
+        row[lane] = N::of(1.0);
     }
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        block.present[body][lane] = f64::from(u8::from(magnet.present));
+        block.present[body][lane] = N::of(f64::from(u8::from(magnet.present)));
     }
     lay_straight(model, block, lane, scene_start(model));
     apply_parameters(model, block, lane);
@@ -75,9 +76,9 @@ pub fn rest<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize) {
 }
 
 /// Starts an episode in one lane.
-pub fn reset<const W: usize>(
+pub fn reset<const W: usize, N: Number>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     lane: usize,
     start: StartPose,
     factors: &[f64],
@@ -85,14 +86,15 @@ pub fn reset<const W: usize>(
     mut draws: Draws,
 ) {
     for (k, &factor) in factors.iter().enumerate() {
-        block.factors[k][lane] = factor;
+        block.factors[k][lane] = N::of(factor);
     }
     for variation in &model.scene.reset.vary {
         let drawn = draws.uniform(variation.low, variation.high);
-        block.factors[variation.parameter as usize][lane] *= drawn;
+        let factor = &mut block.factors[variation.parameter as usize][lane];
+        *factor = N::of(factor.f64() * drawn);
     }
     for (body, &is_in) in present.iter().enumerate() {
-        block.present[body][lane] = f64::from(u8::from(is_in));
+        block.present[body][lane] = N::of(f64::from(u8::from(is_in)));
     }
     lay_straight(model, block, lane, start);
     apply_parameters(model, block, lane);
@@ -102,19 +104,19 @@ pub fn reset<const W: usize>(
     block.status[lane] = Status::Running;
 }
 
-fn lay_straight<const W: usize>(
+fn lay_straight<const W: usize, N: Number>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     lane: usize,
     start: StartPose,
 ) {
     for rows in block.state_rows_mut().into_iter().take(6) {
-        rows.iter_mut().for_each(|row| row[lane] = 0.0);
+        rows.iter_mut().for_each(|row| row[lane] = N::default());
     }
     for rows in [&mut block.twist, &mut block.wrench] {
-        rows.iter_mut().for_each(|row| row[lane] = 0.0);
+        rows.iter_mut().for_each(|row| row[lane] = N::default());
     }
-    block.step_count[0][lane] = 0.0;
+    block.step_count[0][lane] = N::default();
     let axes = model.dimensions();
     let (sin, cos) = sin_cos(start.angle_rad);
     let (yaw_sin, yaw_cos) = sin_cos(start.yaw_rad);
@@ -125,8 +127,8 @@ fn lay_straight<const W: usize>(
         let arc = model.mesh.arc_m[node];
         for axis in 0..axes {
             match *anchor {
-                Anchor::Free { dof } => block.q[dof + axis][lane] = place(arc, axis),
-                Anchor::Fixed => block.held[axes * node + axis][lane] = place(arc, axis),
+                Anchor::Free { dof } => block.q[dof + axis][lane] = N::of(place(arc, axis)),
+                Anchor::Fixed => block.held[axes * node + axis][lane] = N::of(place(arc, axis)),
                 Anchor::Rigid { .. } => {}
             }
         }
@@ -135,17 +137,17 @@ fn lay_straight<const W: usize>(
         let element = model.mesh.magnets[body].element;
         let middle = 0.5 * (model.mesh.arc_m[element] + model.mesh.arc_m[element + 1]);
         for axis in 0..axes {
-            block.q[dof + axis][lane] = place(middle, axis);
+            block.q[dof + axis][lane] = N::of(place(middle, axis));
         }
         if axes == 2 {
-            block.q[dof + 2][lane] = start.angle_rad;
+            block.q[dof + 2][lane] = N::of(start.angle_rad);
         }
     }
     let up = [-(sin * yaw_cos), cos, sin * yaw_sin];
     for element in block.director.chunks_exact_mut(6) {
         for axis in 0..3 {
-            element[axis][lane] = up[axis];
-            element[3 + axis][lane] = tangent[axis];
+            element[axis][lane] = N::of(up[axis]);
+            element[3 + axis][lane] = N::of(tangent[axis]);
         }
     }
 }
@@ -164,25 +166,31 @@ fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
 }
 
 /// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.
-pub fn apply_parameters<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize) {
-    let factor = |block: &Block<W>, p: Parameter| block.factors[p as usize][lane];
+pub fn apply_parameters<const W: usize, N: Number>(
+    model: &Model,
+    block: &mut Block<W, N>,
+    lane: usize,
+) {
+    let factor = |block: &Block<W, N>, p: Parameter| block.factors[p as usize][lane].f64();
     let mass_factor = factor(block, Parameter::Mass);
-    block.mass.iter_mut().for_each(|row| row[lane] = 0.0);
+    block.mass.iter_mut().for_each(|row| row[lane] = N::default());
     for part in &model.inertia {
-        let is_in = part.body.is_some_and(|body| block.present[body][lane] == 1.0);
+        let is_in = part.body.is_some_and(|body| block.present[body][lane] == N::of(1.0));
         let cavity = if is_in { part.magnet } else { part.fill };
-        block.mass[part.dof][lane] += mass_factor * (part.rubber + cavity);
+        let mass = &mut block.mass[part.dof][lane];
+        *mass = N::of(mass.f64() + mass_factor * (part.rubber + cavity));
     }
     let remanence = factor(block, Parameter::Remanence) * model.magnet_remanence_t;
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        block.remanence[body][lane] = remanence * magnet.polarity * block.present[body][lane];
+        let is_in = block.present[body][lane].f64();
+        block.remanence[body][lane] = N::of(remanence * magnet.polarity * is_in);
     }
 }
 
-fn place_drive<const W: usize>(
+fn place_drive<const W: usize, N: Number>(
     model: &Model,
     drive: &DriveModel,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     lane: usize,
     draws: &mut Draws,
 ) {
@@ -200,12 +208,12 @@ fn place_drive<const W: usize>(
         Path::Waypoints { point, .. } => point[0],
     };
     for axis in 0..axes {
-        block.stage[axis][lane] = place[axis];
-        block.stage[axes + axis][lane] = 0.0;
-        block.target[axis][lane] = place[axis];
+        block.stage[axis][lane] = N::of(place[axis]);
+        block.stage[axes + axis][lane] = N::default();
+        block.target[axis][lane] = N::of(place[axis]);
     }
-    block.target[axes][lane] = 0.0;
-    block.action.iter_mut().for_each(|row| row[lane] = 0.0);
+    block.target[axes][lane] = N::default();
+    block.action.iter_mut().for_each(|row| row[lane] = N::default());
 }
 
 /// A place within the limits of a stage, around a robot.

@@ -1,12 +1,13 @@
 //! What each phase of a step costs, measured.
 //!
-//! Eight robots of the scene act at random from its start pose. The same run is made several times: trajectories are
+//! A block of robots of the scene acts at random from its start pose. The same run is made several times: trajectories are
 //! equal bit for bit, so of each phase in each step the least time counts, and interruptions do not.
 
-use crate::lanes::{InstructionSet, WIDE};
+use crate::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
 use crate::model::{Model, Phase};
 use crate::reset::{Draws, reset, scene_start};
-use crate::state::Block;
+use crate::scene::Precision;
+use crate::state::{Block, Steps};
 use crate::step::command;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -20,10 +21,20 @@ const RUNS: usize = 3;
 /// Takes as long as 600 steps of a block. Times differ from run to run by some per cent; nothing in a simulation
 /// depends on them.
 pub fn shares(model: &Model) -> Vec<(Phase, f64)> {
+    match model.scene.solver.precision {
+        Precision::Double => shares_of::<WIDE, f64>(model),
+        Precision::Single => shares_of::<WIDE_SINGLE, f32>(model),
+    }
+}
+
+fn shares_of<const W: usize, N: Number>(model: &Model) -> Vec<(Phase, f64)>
+where
+    Block<W, N>: Steps,
+{
     let phases = model.phases.len();
     let mut least = vec![Duration::MAX; phases * STEPS as usize];
     for _ in 0..RUNS {
-        run(model, &mut least);
+        run::<W, N>(model, &mut least);
     }
     let of_phase = |phase| least.iter().skip(phase).step_by(phases).map(Duration::as_secs_f64);
     let total: f64 = least.iter().map(Duration::as_secs_f64).sum();
@@ -43,26 +54,28 @@ pub fn explain(model: &Model) -> String {
 }
 
 /// Lowers the times of phases, shape [steps × phases], to those of one more run.
-fn run(model: &Model, least: &mut [Duration]) {
-    let set = InstructionSet::widest();
-    let mut block = start(model);
+fn run<const W: usize, N: Number>(model: &Model, least: &mut [Duration])
+where
+    Block<W, N>: Steps,
+{
+    let mut block = start::<W, N>(model);
     for (step, row) in (0..STEPS).zip(least.chunks_mut(model.phases.len())) {
         if step.is_multiple_of(model.steps_per_control) {
             act(model, &mut block, u64::from(step / model.steps_per_control));
         }
         for (&phase, least) in model.phases.iter().zip(row) {
             let begin = Instant::now();
-            block.run_phase_on(set, model, phase);
+            block.run_phase_on(InstructionSet::widest(), model, phase);
             *least = begin.elapsed().min(*least);
         }
     }
 }
 
-/// Eight robots at the scene's start pose.
-fn start(model: &Model) -> Block<WIDE> {
+/// As many robots as a block has lanes at the scene's start pose.
+fn start<const W: usize, N: Number>(model: &Model) -> Block<W, N> {
     let mut block = Block::new(model);
     let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
-    for lane in 0..WIDE {
+    for lane in 0..W {
         let draws = Draws::new(lane as u64, 0);
         let factors = [1.0; Model::PARAMETERS.len()];
         reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
@@ -71,9 +84,9 @@ fn start(model: &Model) -> Block<WIDE> {
 }
 
 /// A random action for each robot, held for four control steps.
-fn act(model: &Model, block: &mut Block<WIDE>, control_step: u64) {
+fn act<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, control_step: u64) {
     let Some(drive) = &model.program.drive else { return };
-    for lane in 0..WIDE {
+    for lane in 0..W {
         let mut draws = Draws::new(lane as u64, 1000 + control_step / 4);
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
         command(model, drive, block, lane, &action);
@@ -115,7 +128,7 @@ mod tests {
         let model = Scene::preset("turn-3").and_then(|scene| Model::compile(&scene));
         let model = model.expect("the preset is valid");
         let set = InstructionSet::widest();
-        let (mut whole, mut parts) = (start(&model), start(&model));
+        let (mut whole, mut parts) = (start::<WIDE, f64>(&model), start::<WIDE, f64>(&model));
         whole.advance_on(set, &model, 20);
         for _ in 0..20 {
             model.phases.iter().for_each(|&phase| parts.run_phase_on(set, &model, phase));

@@ -5,7 +5,7 @@ use crate::drive::{DriveModel, Path, StageModel, on_waypoints, stage_axes};
 use crate::elastic;
 use crate::integrate;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Mask, Real};
+use crate::lanes::{Isa, Mask, Number, Real};
 use crate::model::{Model, Phase};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
@@ -13,7 +13,12 @@ use std::f64::consts::TAU;
 
 /// Advances a block by `steps` solver steps. Environments that break stand still.
 #[inline(always)]
-pub fn advance<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, steps: u32) {
+pub fn advance<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+    steps: u32,
+) {
     mark_running(block);
     match model.dimensions() {
         2 => advance_in::<W, 2, I>(isa, model, block, steps),
@@ -21,9 +26,10 @@ pub fn advance<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
     }
 }
 
-fn mark_running<const W: usize>(block: &mut Block<W>) {
+fn mark_running<const W: usize, N: Number>(block: &mut Block<W, N>) {
     for lane in 0..W {
-        block.running[0][lane] = if block.status[lane] == Status::Running { 1.0 } else { 0.0 };
+        block.running[0][lane] =
+            N::of(if block.status[lane] == Status::Running { 1.0 } else { 0.0 });
     }
 }
 
@@ -31,7 +37,7 @@ fn mark_running<const W: usize>(block: &mut Block<W>) {
 fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     steps: u32,
 ) {
     for _ in 0..steps {
@@ -40,7 +46,11 @@ fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 /// One solver step in D dimensions.
-fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn step<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     for &phase in &model.phases {
         run::<W, D, I>(isa, model, block, phase);
     }
@@ -51,7 +61,7 @@ fn step<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block:
 pub fn run_phase<const W: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     phase: Phase,
 ) {
     mark_running(block);
@@ -66,7 +76,7 @@ pub fn run_phase<const W: usize, I: Isa<W>>(
 fn run<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     phase: Phase,
 ) {
     match phase {
@@ -109,7 +119,7 @@ fn run<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 /// Velocities at the end of a step without ground.
-fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     model.system.kept().factor(isa, &mut block.matrix);
     block.next.copy_from_slice(&block.right);
     model.system.kept().solve(isa, &block.matrix, &mut block.next);
@@ -119,7 +129,11 @@ fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>)
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
 /// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
-fn commit<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn commit<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let finite = all_finite(isa, block);
     let intact = intact(isa, model, block);
@@ -145,7 +159,7 @@ fn commit<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, bloc
 }
 
 #[inline(always)]
-fn all_finite<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>) -> I::M {
+fn all_finite<const W: usize, I: Isa<W>>(isa: I, block: &Block<W, I::Number>) -> I::M {
     let mut sum = isa.splat(0.0);
     for row in block.next.iter() {
         sum = sum + isa.load(row).abs();
@@ -155,7 +169,7 @@ fn all_finite<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>) -> I::M {
 }
 
 #[inline(always)]
-fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) -> I::M {
+fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W, I::Number>) -> I::M {
     let mut intact = isa.splat(0.0).eq(isa.splat(0.0));
     for spring in &model.stretch {
         let length = isa.load(&block.length[spring.element]);
@@ -170,7 +184,7 @@ fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
 fn above_ground<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
 ) -> I::M {
     let mut lowest = isa.splat(0.0);
     if model.program.ground.is_some() {
@@ -184,7 +198,7 @@ fn above_ground<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 fn mark_broken<const W: usize, I: Isa<W>>(
     isa: I,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     running: I::M,
     [finite, intact, above]: [I::M; 3],
 ) {
@@ -192,15 +206,16 @@ fn mark_broken<const W: usize, I: Isa<W>>(
     let reason = I::F::select(above, code(Status::Running), code(Status::Sunk));
     let reason = I::F::select(intact, reason, code(Status::Overstretched));
     let reason = I::F::select(finite, reason, code(Status::NotFinite));
-    let mut row = [0.0; W];
+    let mut row = [I::Number::default(); W];
     isa.store(I::F::select(running, reason, code(Status::Running)), &mut row);
     for lane in 0..W {
-        if row[lane] != 0.0 {
-            block.status[lane] = Status::from_code(row[lane] as u8).unwrap_or(Status::NotFinite);
-            block.running[0][lane] = 0.0;
+        let code = row[lane].f64();
+        if code != 0.0 {
+            block.status[lane] = Status::from_code(code as u8).unwrap_or(Status::NotFinite);
+            block.running[0][lane] = I::Number::default();
             // The impulses of the step that failed may be anything, NaN included.
             for rows in [&mut block.mode, &mut block.normal, &mut block.pad] {
-                rows.iter_mut().for_each(|row| row[lane] = 0.0);
+                rows.iter_mut().for_each(|row| row[lane] = I::Number::default());
             }
         }
     }
@@ -211,7 +226,7 @@ fn mark_broken<const W: usize, I: Isa<W>>(
 fn move_drive<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let Some(drive) = &model.program.drive else { return };
     let axes = stage_axes(D);
@@ -267,14 +282,14 @@ fn follow<const W: usize, I: Isa<W>>(
     place: &mut [I::F; 4],
     speed: &mut [I::F; 4],
 ) {
-    let mut now = [0.0; W];
+    let mut now = [I::Number::default(); W];
     isa.store(time, &mut now);
-    let mut rows = [[0.0; W]; 8];
+    let mut rows = [[I::Number::default(); W]; 8];
     for lane in 0..W {
-        let (position, velocity) = on_waypoints(time_s, point, now[lane]);
+        let (position, velocity) = on_waypoints(time_s, point, now[lane].f64());
         for axis in 0..4 {
-            rows[axis][lane] = position[axis];
-            rows[4 + axis][lane] = velocity[axis];
+            rows[axis][lane] = I::Number::of(position[axis]);
+            rows[4 + axis][lane] = I::Number::of(velocity[axis]);
         }
     }
     for axis in 0..4 {
@@ -285,7 +300,11 @@ fn follow<const W: usize, I: Isa<W>>(
 
 /// x of the robot's centre: mean of its magnets.
 #[inline(always)]
-pub fn robot_centre<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) -> I::F {
+pub fn robot_centre<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &Block<W, I::Number>,
+) -> I::F {
     let mut sum = isa.splat(0.0);
     for &dof in &model.coordinates.bodies {
         sum = sum + isa.load(&block.q[dof]);
@@ -296,10 +315,10 @@ pub fn robot_centre<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Bl
 /// Sets the targets of a controlled drive from actions in [−1, 1]. In the plane: place relative to the
 /// robot's centre now, height, travel speed. In space: place along the robot's heading and to its side, height,
 /// travel speed, yaw against its heading where the stage has it. Values beyond are clipped.
-pub fn command<const W: usize>(
+pub fn command<const W: usize, N: Number>(
     model: &Model,
     drive: &DriveModel,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     lane: usize,
     action: &[f64],
 ) {
@@ -318,16 +337,16 @@ pub fn command<const W: usize>(
         let aside = action(1) * limits.lateral_reach_m;
         let yaw = heading + action(4) * limits.yaw_reach_rad;
         // On the branch where the stage is, so that it never turns back by a whole turn.
-        let turns = ((block.stage[3][lane] - yaw) / TAU).round();
+        let turns = ((block.stage[3][lane].f64() - yaw) / TAU).round();
         let place =
             [x + along * cos + aside * sin, height(action(2)), z + aside * cos - along * sin];
         let speed = unit(action(3)) * limits.speed_m_s;
         [place[0], place[1], place[2], yaw + turns * TAU, speed]
     };
     for (row, target) in block.target.iter_mut().zip(targets) {
-        row[lane] = target;
+        row[lane] = N::of(target);
     }
     for k in 0..size {
-        block.action[k][lane] = action(k);
+        block.action[k][lane] = N::of(action(k));
     }
 }

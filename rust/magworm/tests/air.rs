@@ -5,7 +5,7 @@ mod scenes;
 use magworm::lanes::{Scalar, WIDE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
-use magworm::state::{Block, Status};
+use magworm::state::{Block, Status, Steps};
 use magworm::step::advance;
 
 const SCENES: [&str; 4] = ["three magnets", "three magnets in space", "multipliers", "incline"];

@@ -34,7 +34,7 @@ fn assert_equal(here: &[Vec<Record>], there: &[Vec<Record>], places: &[usize], w
     }
 }
 
-/// Thirteen robots fill one block and part of a second. `broken`: how many at least must break
+/// Thirteen robots fill one block and part of a second, or of one in single precision. `broken`: how many at least must break
 /// midway, to show that they do not touch the bits of their neighbours.
 #[track_caller]
 fn lanes_agree(scene: &str, steps: u64, broken: usize) {
@@ -157,10 +157,21 @@ fn scalar_and_wide_lanes_give_equal_bits_where_wrenches_are_held() {
 }
 
 #[test]
+fn scalar_and_wide_lanes_give_equal_bits_in_single_precision() {
+    lanes_agree("single precision", 300, 3);
+    lanes_agree("belt in single precision", 200, 3);
+    lanes_agree("single precision in space", 200, 3);
+    lanes_agree("dipoles in single precision in space", 150, 3);
+    lanes_agree("cantilever in single precision in space", 200, 1);
+}
+
+#[test]
 fn any_number_of_threads_gives_equal_bits() {
     let robots: Vec<u64> = (0..61).collect();
     let places: Vec<usize> = (0..61).collect();
-    for (scene, steps) in [("three magnets", 40), ("three magnets in space", 25)] {
+    for (scene, steps) in
+        [("three magnets", 40), ("three magnets in space", 25), ("single precision", 40)]
+    {
         let model = model(scene);
         for lanes in [Wide, Scalar] {
             let alone = records(&model, &robots, lanes, 1, steps);
@@ -186,9 +197,13 @@ fn each_alone(model: &Arc<Model>, robots: u64, steps: u64) -> Vec<Vec<Record>> {
 
 #[test]
 fn an_environment_in_a_batch_of_any_size_equals_the_same_alone() {
-    for (scene, steps) in
-        [("three magnets", 40), ("belt", 40), ("three magnets in space", 25), ("belt in space", 25)]
-    {
+    for (scene, steps) in [
+        ("three magnets", 40),
+        ("belt", 40),
+        ("three magnets in space", 25),
+        ("belt in space", 25),
+        ("single precision in space", 25),
+    ] {
         let model = model(scene);
         let alone = each_alone(&model, 64, steps);
         for count in [1, 5, 8, 13, 64] {
@@ -206,7 +221,7 @@ fn the_place_in_a_batch_does_not_matter() {
     // 8 is coprime to 21: every robot moves to another lane of another block.
     let places: Vec<usize> = (0..21).map(|place| (8 * place + 5) % 21).collect();
     let shuffled: Vec<u64> = places.iter().map(|&place| place as u64).collect();
-    for scene in ["four magnets", "dipoles with varied parameters in space"] {
+    for scene in ["four magnets", "dipoles with varied parameters in space", "single precision"] {
         let model = model(scene);
         let in_order = records(&model, &robots, Wide, 1, 60);
         for lanes in [Wide, Scalar] {

@@ -1,17 +1,18 @@
-//! Equal bits on every instruction set of this processor, from SSE2 to AVX-512, and in plain `f64`.
+//! Equal bits on every instruction set of this processor, from SSE2 to AVX-512, and in plain `f64` or `f32`.
 
 mod scenes;
 
-use magworm::lanes::{InstructionSet, Scalar, WIDE};
+use magworm::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
-use magworm::state::Block;
-use magworm::step::{advance, command};
+use magworm::scene::Precision;
+use magworm::state::{Block, Steps};
+use magworm::step::command;
 
 const CONTROL_STEPS: u64 = 60;
 
 /// Starts the robots `first..` in the lanes of a block, each with parameters of its own.
-fn start<const W: usize>(model: &Model, first: usize) -> Block<W> {
+fn start<const W: usize, N: Number>(model: &Model, first: usize) -> Block<W, N> {
     let mut block = Block::new(model);
     for lane in 0..W {
         let robot = (first + lane) as u64;
@@ -29,7 +30,12 @@ fn start<const W: usize>(model: &Model, first: usize) -> Block<W> {
 }
 
 /// New targets for the robots `first..`, where the scene takes any.
-fn act<const W: usize>(model: &Model, block: &mut Block<W>, first: usize, control_step: u64) {
+fn act<const W: usize, N: Number>(
+    model: &Model,
+    block: &mut Block<W, N>,
+    first: usize,
+    control_step: u64,
+) {
     let Some(drive) = &model.program.drive else { return };
     for lane in 0..W {
         let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
@@ -39,32 +45,46 @@ fn act<const W: usize>(model: &Model, block: &mut Block<W>, first: usize, contro
 }
 
 /// The bits of one lane's state.
-fn bits<const W: usize>(block: &Block<W>, lane: usize) -> Vec<u64> {
+fn bits<const W: usize, N: Number>(block: &Block<W, N>, lane: usize) -> Vec<u64> {
     let rows = block.state_rows();
-    let state = rows.iter().flat_map(|rows| rows.iter().map(|row| row[lane].to_bits()));
+    let state = rows.iter().flat_map(|rows| rows.iter().map(|row| row[lane].f64().to_bits()));
     state.chain([u64::from(block.status[lane] as u8)]).collect()
 }
 
-/// State of eight robots after every control step, `[control step][robot]`.
-fn on(set: InstructionSet, model: &Model) -> Vec<Vec<Vec<u64>>> {
-    let mut block = start::<WIDE>(model, 0);
+/// State of the robots `first..` of a block after every control step, `[control step][lane]`.
+fn on<const W: usize, N: Number>(
+    set: InstructionSet,
+    model: &Model,
+    first: usize,
+) -> Vec<Vec<Vec<u64>>>
+where
+    Block<W, N>: Steps,
+{
+    let mut block = start::<W, N>(model, first);
     let steps = (0..CONTROL_STEPS).map(|control_step| {
-        act(model, &mut block, 0, control_step);
+        act(model, &mut block, first, control_step);
         block.advance_on(set, model, model.steps_per_control);
-        (0..WIDE).map(|lane| bits(&block, lane)).collect()
+        (0..W).map(|lane| bits(&block, lane)).collect()
     });
     steps.collect()
 }
 
-/// The same for one robot in plain `f64`, `[control step]`.
-fn alone(model: &Model, robot: usize) -> Vec<Vec<u64>> {
-    let mut block = start::<1>(model, robot);
-    let steps = (0..CONTROL_STEPS).map(|control_step| {
-        act(model, &mut block, robot, control_step);
-        advance(Scalar, model, &mut block, model.steps_per_control);
-        bits(&block, 0)
-    });
-    steps.collect()
+/// Blocks of W lanes on every instruction set, and their robots one by one.
+fn agree<const W: usize, N: Number>(name: &str, model: &Model)
+where
+    Block<W, N>: Steps,
+    Block<1, N>: Steps,
+{
+    let sets = InstructionSet::available();
+    let widest = on::<W, N>(sets[0], model, 0);
+    for set in &sets[1..] {
+        assert!(on::<W, N>(*set, model, 0) == widest, "{name}: {} differs", set.name());
+    }
+    for robot in 0..W {
+        let alone = on::<1, N>(sets[0], model, robot);
+        let lanes = widest.iter().map(|step| &step[robot]);
+        assert!(alone.iter().map(|step| &step[0]).eq(lanes), "{name}: robot {robot} alone differs");
+    }
 }
 
 #[test]
@@ -73,14 +93,9 @@ fn every_instruction_set_gives_equal_bits() {
     println!("instruction sets: {:?}", sets.iter().map(|set| set.name()).collect::<Vec<_>>());
     for (name, ..) in scenes::SCENES {
         let model = scenes::model(name);
-        let widest = on(sets[0], &model);
-        for set in &sets[1..] {
-            assert!(on(*set, &model) == widest, "{name}: {} differs", set.name());
-        }
-        for robot in 0..WIDE {
-            let scalar = alone(&model, robot);
-            let lane = widest.iter().map(|step| &step[robot]);
-            assert!(scalar.iter().eq(lane), "{name}: robot {robot} in plain f64 differs");
+        match model.scene.solver.precision {
+            Precision::Double => agree::<WIDE, f64>(name, &model),
+            Precision::Single => agree::<WIDE_SINGLE, f32>(name, &model),
         }
     }
 }

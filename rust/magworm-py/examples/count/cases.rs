@@ -6,7 +6,7 @@ use magworm::scene::Scene;
 /// What is counted.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Work {
-    /// Solver steps of a block of eight robots.
+    /// Solver steps of a block of eight robots, sixteen in single precision.
     Block,
     /// Solver steps of one robot in plain `f64`, observations included.
     Scalar,
@@ -88,6 +88,7 @@ const GROUND: Edits = &[
     ("material.damping_time_s", "0.0"),
     ("start.height_m", "4.0"),
 ];
+const SINGLE: Edits = &[("solver.precision", "'single'")];
 /// Sixteen drive magnets, most of them far away.
 const BELT: Edits = &[("drive.arrangement.count", "16")];
 /// Wrenches that act for five steps.
@@ -100,6 +101,8 @@ pub const CASES: &[Case] = &[
     case("step-space", Work::Block, "turn-3", &[]),
     case("step-plane-scalar", Work::Scalar, "paper-3", &[]),
     case("step-space-scalar", Work::Scalar, "turn-3", &[]),
+    case("step-plane-single", Work::Block, "paper-3", SINGLE),
+    case("step-space-single", Work::Block, "turn-3", SINGLE),
     case("wrench-plane", Work::Wrench, "paper-3", &[]),
     case("wrench-space", Work::Wrench, "turn-3", &[]),
     case("wrench-plane-order-1", Work::Wrench, "paper-3", &[("solver.quadrature_order", "1")]),

@@ -14,11 +14,12 @@ mod cases;
 mod wrench;
 
 use cases::{CASES, Case, Work};
-use magworm::lanes::{InstructionSet, WIDE};
+use magworm::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
 use magworm::model::{Model, Phase};
 use magworm::observe;
 use magworm::reset::{Draws, reset, scene_start};
-use magworm::state::{Batch, Block, LaneChoice, StepOutput};
+use magworm::scene::Precision;
+use magworm::state::{Batch, Block, LaneChoice, StepOutput, Steps};
 use magworm::step::command;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -70,7 +71,10 @@ fn run(name: &str, phase: Option<&str>) -> Result<u64, String> {
     let case = find(name)?;
     let model = Arc::new(case.model()?);
     match case.work {
-        Work::Block => block(&model, avx2()?, phase),
+        Work::Block => match model.scene.solver.precision {
+            Precision::Double => block::<WIDE, f64>(&model, avx2()?, phase),
+            Precision::Single => block::<WIDE_SINGLE, f32>(&model, avx2()?, phase),
+        },
         Work::Wrench => wrench::count(&model, avx2()?),
         Work::Scalar => Ok(scalar(&model)),
         Work::Control => {
@@ -98,8 +102,15 @@ fn action(robot: usize, control_step: u64) -> [f64; 5] {
     std::array::from_fn(|_| draws.uniform(-1.0, 1.0))
 }
 
-/// Solver steps of a block of eight robots, each with actions of its own. `phase`: all if none.
-fn block(model: &Model, set: InstructionSet, phase: Option<&str>) -> Result<u64, String> {
+/// Solver steps of a block of W robots, each with actions of its own. `phase`: all if none.
+fn block<const W: usize, N: Number>(
+    model: &Model,
+    set: InstructionSet,
+    phase: Option<&str>,
+) -> Result<u64, String>
+where
+    Block<W, N>: Steps,
+{
     let chosen = match phase {
         None => None,
         Some(name) => {
@@ -107,16 +118,16 @@ fn block(model: &Model, set: InstructionSet, phase: Option<&str>) -> Result<u64,
             Some(*found.ok_or_else(|| format!("phase is {name:?}; allowed: those of the task"))?)
         }
     };
-    let mut block = Block::<WIDE>::new(model);
+    let mut block = Block::<W, N>::new(model);
     let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
     let factors = [1.0; Model::PARAMETERS.len()];
-    for lane in 0..WIDE {
+    for lane in 0..W {
         let draws = Draws::new(lane as u64, 0);
         reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
     }
     for control_step in 0..BEFORE + CONTROL_STEPS {
         if let Some(drive) = &model.program.drive {
-            for lane in 0..WIDE {
+            for lane in 0..W {
                 command(model, drive, &mut block, lane, &action(lane, control_step));
             }
         }
@@ -133,7 +144,7 @@ fn block(model: &Model, set: InstructionSet, phase: Option<&str>) -> Result<u64,
 }
 
 /// A solver step of which one phase is counted.
-fn step_by_phases(block: &mut Block<WIDE>, set: InstructionSet, model: &Model, chosen: Phase) {
+fn step_by_phases(block: &mut impl Steps, set: InstructionSet, model: &Model, chosen: Phase) {
     for &phase in &model.phases {
         let mut run = || block.run_phase_on(set, model, phase);
         if phase == chosen { counted(&mut run) } else { run() }

@@ -16,7 +16,7 @@ const AGREED: f64 = 1e-3;
 pub(super) fn bound_by_last<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    work: &mut Workspace<W>,
+    work: &mut Workspace<W, I::Number>,
     c: usize,
 ) {
     let coefficient = isa.load(&work.coefficient[c]);
@@ -31,7 +31,7 @@ pub(super) fn relax<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
 ) -> I::M {
     let zero = isa.splat(0.0);
@@ -58,7 +58,7 @@ pub(super) fn relax<const W: usize, const D: usize, I: Isa<W>>(
 fn found_and_bound<const W: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     c: usize,
 ) -> [I::F; 2] {
     let coefficient = isa.load(&block.contact.coefficient[c]);

@@ -14,7 +14,11 @@ use crate::state::Block;
 
 /// Whether any point of the lanes of a mask touches at the start of the step.
 #[inline(always)]
-pub(super) fn touching<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, mask: I::M) -> bool {
+pub(super) fn touching<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W, I::Number>,
+    mask: I::M,
+) -> bool {
     let mut count = isa.splat(0.0);
     for row in block.contact.touching.iter() {
         count = count + isa.load(row);
@@ -26,7 +30,7 @@ pub(super) fn touching<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, mask
 pub(super) fn fly<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     running: I::M,
 ) -> bool {
     solve_free(isa, model, block);
@@ -49,7 +53,7 @@ pub(super) fn fly<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Whether the iteration would end with the whole step.
 #[inline(always)]
-fn solved<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>) -> I::M {
+fn solved<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W, I::Number>) -> I::M {
     free_residual(isa, &mut block.contact, isa.splat(1.0));
     let tolerance = Search::load(isa, &block.contact.search).tolerance;
     size_of_residual(isa, &block.contact).le(tolerance)
@@ -60,7 +64,7 @@ fn solved<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>) -> I::M {
 fn above<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
 ) -> I::M {
     let work = &block.contact;
     let mut above = isa.splat(0.0).eq(isa.splat(0.0));
@@ -74,7 +78,7 @@ fn above<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Points in the air hold no impulses.
 #[inline(always)]
-fn release<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, mask: I::M) {
+fn release<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W, I::Number>, mask: I::M) {
     let zero = isa.splat(0.0);
     for rows in [&mut block.normal, &mut block.pad] {
         for row in rows.iter_mut() {

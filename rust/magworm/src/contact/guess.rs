@@ -44,7 +44,7 @@ pub(super) fn along<F: Real, const D: usize>(a: [F; 2], b: [F; 2]) -> F {
 pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     c: usize,
     contact: &Contact,
 ) {
@@ -84,7 +84,7 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
 pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    work: &mut Workspace<W>,
+    work: &mut Workspace<W, I::Number>,
     c: usize,
     sticks: bool,
     mask: I::M,

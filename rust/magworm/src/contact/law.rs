@@ -57,7 +57,7 @@ impl<F: Real> Ground<F> {
         isa: I,
         law: &GroundLaw,
         step_s: f64,
-        block: &Block<W>,
+        block: &Block<W, I::Number>,
     ) -> Self {
         let of_static = isa.load(&block.factors[Parameter::StaticFriction as usize]);
         let of_dynamic = isa.load(&block.factors[Parameter::DynamicFriction as usize]);
@@ -216,7 +216,7 @@ impl<F: Real> Response<F> {
     #[inline(always)]
     pub(super) fn load<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
         isa: I,
-        rows: &[[f64; W]],
+        rows: &[[I::Number; W]],
         c: usize,
     ) -> Self {
         let rows = &rows[RESPONSE * c..RESPONSE * (c + 1)];
@@ -233,7 +233,7 @@ impl<F: Real> Response<F> {
         &self,
         isa: I,
         mask: I::M,
-        rows: &mut [[f64; W]],
+        rows: &mut [[I::Number; W]],
         c: usize,
     ) {
         let rows = &mut rows[RESPONSE * c..RESPONSE * (c + 1)];

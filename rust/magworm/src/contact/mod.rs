@@ -60,7 +60,7 @@ type Vector<F> = [F; 3];
 
 /// Writes the lanes of a mask.
 #[inline(always)]
-fn store_where<const W: usize, I: Isa<W>>(isa: I, mask: I::M, new: I::F, row: &mut [f64; W]) {
+fn store_where<const W: usize, I: Isa<W>>(isa: I, mask: I::M, new: I::F, row: &mut [I::Number; W]) {
     isa.store(I::F::select(mask, new, isa.load(row)), row);
 }
 
@@ -68,7 +68,7 @@ fn store_where<const W: usize, I: Isa<W>>(isa: I, mask: I::M, new: I::F, row: &m
 #[inline(always)]
 fn load_vector<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    rows: &[[f64; W]],
+    rows: &[[I::Number; W]],
     c: usize,
 ) -> Vector<I::F> {
     let mut vector = [isa.splat(0.0); 3];
@@ -84,7 +84,7 @@ fn store_vector<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     mask: I::M,
     vector: &Vector<I::F>,
-    rows: &mut [[f64; W]],
+    rows: &mut [[I::Number; W]],
     c: usize,
 ) {
     for k in 0..D {

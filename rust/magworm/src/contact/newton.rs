@@ -6,19 +6,16 @@ use super::points::point_velocity;
 use super::search::Search;
 use super::system::add_force;
 use super::{Mode, Workspace, load_vector, store_vector, store_where};
-use crate::lanes::{Isa, Mask, Real};
+use crate::lanes::{Isa, Mask, Number, Real};
 use crate::model::Model;
 use crate::state::Block;
-
-/// Residual of a solution relative to s.
-const TOLERANCE: f64 = 1e-9;
 
 /// Before the first iteration: nothing moves, and nothing is known.
 #[inline(always)]
 pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
     let kept = model.system.kept();
@@ -40,7 +37,7 @@ pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
         let velocity = load_vector::<W, D, I>(isa, &work.bias, c);
         store_vector::<W, D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
     }
-    Search::new(size * (TOLERANCE * TOLERANCE)).store(isa, &mut work.search);
+    Search::new(size * (I::Number::RESIDUAL * I::Number::RESIDUAL)).store(isa, &mut work.search);
 }
 
 /// A new direction in the lanes of a mask, to the solution of the linearised system, and what changes along it.
@@ -48,7 +45,7 @@ pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
 pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
 ) {
     let kept = model.system.kept();
@@ -78,7 +75,7 @@ pub(super) fn attempt<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     left: I::M,
     bounded: bool,
 ) -> I::M {
@@ -102,7 +99,7 @@ fn residual<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     step: I::F,
     bounded: bool,
 ) -> I::F {
@@ -125,7 +122,10 @@ fn residual<const W: usize, const D: usize, I: Isa<W>>(
 
 /// |r|² in the metric of 1/diag S.
 #[inline(always)]
-pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(isa: I, work: &Workspace<W>) -> I::F {
+pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(
+    isa: I,
+    work: &Workspace<W, I::Number>,
+) -> I::F {
     let mut sum = isa.splat(0.0);
     for row in 0..work.residual.len() {
         let residual = isa.load(&work.residual[row]);
@@ -138,7 +138,7 @@ pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(isa: I, work: &Workspa
 #[inline(always)]
 pub(super) fn free_residual<const W: usize, I: Isa<W>>(
     isa: I,
-    work: &mut Workspace<W>,
+    work: &mut Workspace<W, I::Number>,
     step: I::F,
 ) {
     for row in 0..work.residual.len() {
@@ -149,7 +149,12 @@ pub(super) fn free_residual<const W: usize, I: Isa<W>>(
 
 /// Goes a step along the direction in the lanes of a mask.
 #[inline(always)]
-fn advance<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, step: I::F, mask: I::M) {
+fn advance<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &mut Block<W, I::Number>,
+    step: I::F,
+    mask: I::M,
+) {
     let work = &mut block.contact;
     follow(isa, &mut work.known, &work.direction, step, mask);
     follow(isa, &mut work.imbalance, &work.imbalance_change, step, mask);
@@ -160,8 +165,8 @@ fn advance<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W>, step: I::F, 
 #[inline(always)]
 pub(super) fn follow<const W: usize, I: Isa<W>>(
     isa: I,
-    rows: &mut [[f64; W]],
-    changes: &[[f64; W]],
+    rows: &mut [[I::Number; W]],
+    changes: &[[I::Number; W]],
     step: I::F,
     mask: I::M,
 ) {
@@ -176,7 +181,7 @@ pub(super) fn follow<const W: usize, I: Isa<W>>(
 fn linearise<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     c: usize,
     mask: I::M,
     bounded: bool,
@@ -209,7 +214,7 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 fn point<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    work: &Workspace<W>,
+    work: &Workspace<W, I::Number>,
     c: usize,
 ) -> Point<I::F> {
     Point {

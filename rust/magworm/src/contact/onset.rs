@@ -18,7 +18,7 @@ pub(super) fn weaken<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
 ) -> I::M {
     let (limit, lost) = (ground.transition_speed, ground.static_friction - ground.dynamic_friction);

@@ -13,7 +13,7 @@ const RECOVERY_M_S: f64 = 0.1;
 pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let Some(law) = &model.program.ground else { return };
     isa.vectorize(
@@ -31,7 +31,7 @@ pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
 fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     c: usize,
     contact: &Contact,
     step_s: f64,
@@ -79,7 +79,7 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 pub(super) fn start_velocity<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     c: usize,
     contact: &Contact,
 ) -> Vector<I::F> {
@@ -92,7 +92,7 @@ pub(super) fn start_velocity<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 fn arc<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    velocities: &[[f64; W]],
+    velocities: &[[I::Number; W]],
     first: usize,
     rigid: bool,
     arm: &[I::F; 3],
@@ -119,7 +119,7 @@ fn arc<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 fn sole_in_plane<const W: usize, I: Isa<W>>(
     isa: I,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     body: usize,
     [along_m, up_m]: [f64; 2],
     arm: &mut [I::F; 3],
@@ -134,7 +134,7 @@ fn sole_in_plane<const W: usize, I: Isa<W>>(
 #[inline(always)]
 fn corner<const W: usize, I: Isa<W>>(
     isa: I,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     body: usize,
     places_m: [f64; 3],
     arm: &mut [I::F; 3],
@@ -151,7 +151,7 @@ fn corner<const W: usize, I: Isa<W>>(
 #[inline(always)]
 pub(super) fn point_velocity<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    velocities: &[[f64; W]],
+    velocities: &[[I::Number; W]],
     first: usize,
     rigid: bool,
     arm: &[I::F; 3],

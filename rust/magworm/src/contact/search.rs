@@ -85,7 +85,7 @@ impl<F: Real> Search<F> {
     }
 
     #[inline(always)]
-    pub(super) fn load<const W: usize, I: Isa<W, F = F>>(isa: I, rows: &[[f64; W]]) -> Self {
+    pub(super) fn load<const W: usize, I: Isa<W, F = F>>(isa: I, rows: &[[I::Number; W]]) -> Self {
         Self {
             step: isa.load(&rows[0]),
             start: isa.load(&rows[1]),
@@ -96,7 +96,11 @@ impl<F: Real> Search<F> {
     }
 
     #[inline(always)]
-    pub(super) fn store<const W: usize, I: Isa<W, F = F>>(&self, isa: I, rows: &mut [[f64; W]]) {
+    pub(super) fn store<const W: usize, I: Isa<W, F = F>>(
+        &self,
+        isa: I,
+        rows: &mut [[I::Number; W]],
+    ) {
         let [best, place] = self.best;
         let all = [self.step, self.start, best, place, self.trials, self.tolerance];
         for k in 0..ROWS {

@@ -22,7 +22,7 @@ use crate::state::Block;
 pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let Some(law) = &model.program.ground else { return };
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
@@ -47,7 +47,7 @@ fn press<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     running: I::M,
 ) {
     isa.vectorize(
@@ -74,7 +74,7 @@ fn settle<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
     phases: &[Phase],
 ) -> I::M {
@@ -146,7 +146,7 @@ fn begin<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
     phase: Phase,
 ) {
@@ -182,7 +182,7 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     mask: I::M,
     friction: Friction,
     trials: usize,

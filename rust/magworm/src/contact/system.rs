@@ -14,7 +14,7 @@ use crate::state::Block;
 pub(super) fn solve_linearised<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     copy(isa, model, block);
     isa.vectorize(
@@ -25,12 +25,16 @@ pub(super) fn solve_linearised<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 /// The same where no point responds: S v = s.
-pub(super) fn solve_free<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+pub(super) fn solve_free<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     copy(isa, model, block);
     eliminate(isa, model, block);
 }
 
-fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let band = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
     unsymmetric::expand(isa, band, symmetric, &mut block.contact.matrix);
@@ -40,7 +44,7 @@ fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) 
     }
 }
 
-fn eliminate<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn eliminate<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let (band, body) = (model.system.kept(), model.system.body());
     unsymmetric::solve(isa, band, body, &mut block.contact.matrix, &mut block.contact.target);
     block.counters.factorisations += 1;
@@ -50,7 +54,7 @@ fn eliminate<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block
 fn add_responses<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let band = model.system.kept();
     let ghosts = band.half_bandwidth();
@@ -87,7 +91,7 @@ fn columns<F: Real>(response: &Response<F>) -> [[F; 3]; 3] {
 #[inline(always)]
 pub(super) fn add_force<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    rows: &mut [[f64; W]],
+    rows: &mut [[I::Number; W]],
     rigid: bool,
     arm: &[I::F; 3],
     force: &[I::F; 3],
@@ -109,7 +113,7 @@ pub(super) fn add_force<const W: usize, const D: usize, I: Isa<W>>(
 #[inline(always)]
 fn add_block<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
     [place, stride]: [usize; 2],
     rigid: bool,
     arm: &[I::F; 3],
@@ -155,6 +159,6 @@ fn add_block<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn add<const W: usize, I: Isa<W>>(isa: I, entry: &mut [f64; W], value: I::F) {
+fn add<const W: usize, I: Isa<W>>(isa: I, entry: &mut [I::Number; W], value: I::F) {
     isa.store(isa.load(entry) + value, entry);
 }

@@ -1,55 +1,55 @@
 //! What the contact solve of a step works with.
 
 use super::law::RESPONSE;
-use crate::lanes::unsymmetric;
+use crate::lanes::{Number, unsymmetric};
 use crate::model::Model;
 use crate::state::Rows;
 
 /// Rows of the contact solve of one step; nothing in here outlives it.
 #[derive(Clone, Debug)]
-pub struct Workspace<const W: usize> {
+pub struct Workspace<const W: usize, N: Number = f64> {
     /// From a point's body to the point [m], shape [contacts × D].
-    pub arm: Rows<W>,
+    pub arm: Rows<W, N>,
     /// What is known of the velocity that the law of a point sees [m/s]: upwards the gap over the time within
     /// which it closes, and what rotation bends, shape [contacts × D].
-    pub bias: Rows<W>,
+    pub bias: Rows<W, N>,
     /// Coefficient of friction in this step, shape [contacts].
-    pub coefficient: Rows<W>,
+    pub coefficient: Rows<W, N>,
     /// Impulses of the step before, upwards and along the ground: there λ⁰ [N·s], shape [contacts × D].
-    pub warm: Rows<W>,
+    pub warm: Rows<W, N>,
     /// Greatest tangential impulse where friction has a bound of its own [N·s], shape [contacts].
-    pub bound: Rows<W>,
+    pub bound: Rows<W, N>,
     /// Impulses linearised in the velocities of the points, see `law::Response`, shape [contacts × 9].
-    pub response: Rows<W>,
+    pub response: Rows<W, N>,
     /// 1 where a point was closed or is about to sink at the start of the step, shape [contacts].
-    pub touching: Rows<W>,
+    pub touching: Rows<W, N>,
     /// Direction in which friction pushed a point when it was linearised last, shape [contacts × 2].
-    pub slip: Rows<W>,
+    pub slip: Rows<W, N>,
     /// Velocities of the points, with the bias [m/s], shape [contacts × D].
-    pub velocity: Rows<W>,
+    pub velocity: Rows<W, N>,
     /// How they change along the direction of search, shape [contacts × D].
-    pub velocity_change: Rows<W>,
+    pub velocity_change: Rows<W, N>,
     /// Matrix of Newton's iteration, unsymmetric.
-    pub matrix: Rows<W>,
+    pub matrix: Rows<W, N>,
     /// Its right-hand side, then its solution, with ghost rows.
-    pub target: Rows<W>,
+    pub target: Rows<W, N>,
     /// v: velocities of the kept unknowns, shape [kept].
-    pub known: Rows<W>,
+    pub known: Rows<W, N>,
     /// Direction of search, shape [kept].
-    pub direction: Rows<W>,
+    pub direction: Rows<W, N>,
     /// S v − s: what contact has to balance [N·s], shape [kept].
-    pub imbalance: Rows<W>,
+    pub imbalance: Rows<W, N>,
     /// How it changes along the direction, shape [kept].
-    pub imbalance_change: Rows<W>,
+    pub imbalance_change: Rows<W, N>,
     /// S v − s − Jᵀ λ at a trial [N·s], shape [kept].
-    pub residual: Rows<W>,
+    pub residual: Rows<W, N>,
     /// 1 over the diagonal of S [1/kg], shape [kept].
-    pub mobility: Rows<W>,
+    pub mobility: Rows<W, N>,
     /// The search of each lane, see `search::Search`, shape [6].
-    pub search: Rows<W>,
+    pub search: Rows<W, N>,
 }
 
-impl<const W: usize> Workspace<W> {
+impl<const W: usize, N: Number> Workspace<W, N> {
     /// Room for the contacts of a model.
     pub fn new(model: &Model) -> Self {
         let contacts = model.contacts.len();

@@ -29,7 +29,7 @@ fn curvature<F: Real>(law: Curvature, dot: F, cross: F) -> (F, F) {
 pub fn assemble<const W: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     scheme: Scheme<I::F>,
 ) {
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);

@@ -14,7 +14,11 @@ use crate::state::Block;
 
 /// Brings the frames of the elements up to date with their tangents, and their sides with both.
 #[inline(always)]
-pub fn transport<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+pub fn transport<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let (director, tangent, side) = (&mut *block.director, &mut *block.tangent, &mut *block.side);
     for (element, rigid) in model.coordinates.rigid.iter().enumerate() {
@@ -59,7 +63,12 @@ fn unit<F: Real>(a: &[F; 3]) -> [F; 3] {
 /// The angular velocity that a magnet has after it is that of its angular momentum I ω in the turned frame:
 /// this is the gyroscopic torque ω × I ω, without error in the momentum.
 #[inline(always)]
-pub fn turn<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>, go: I::M) {
+pub fn turn<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+    go: I::M,
+) {
     for (element, twist) in model.coordinates.twists.iter().enumerate() {
         let Some(dof) = *twist else { continue };
         let angle = isa.load(&block.next[dof]) * (0.5 * model.step_s);
@@ -106,7 +115,7 @@ fn rotated<F: Real>(a: &[F; 3], half: &[F; 3]) -> [F; 3] {
 #[inline(always)]
 fn world_inertia<const W: usize, I: Isa<W>>(
     isa: I,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     body: usize,
     dof: usize,
     rate: &[I::F; 3],
@@ -122,7 +131,11 @@ fn world_inertia<const W: usize, I: Isa<W>>(
 
 /// Tangent, up and side of a magnet.
 #[inline(always)]
-pub fn axes<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, body: usize) -> [[I::F; 3]; 3] {
+pub fn axes<const W: usize, I: Isa<W>>(
+    isa: I,
+    block: &Block<W, I::Number>,
+    body: usize,
+) -> [[I::F; 3]; 3] {
     [
         load3(isa, &block.frame, 9 * body),
         load3(isa, &block.frame, 9 * body + 3),
@@ -133,7 +146,7 @@ pub fn axes<const W: usize, I: Isa<W>>(isa: I, block: &Block<W>, body: usize) ->
 #[inline(always)]
 pub(super) fn load3<const W: usize, I: Isa<W>>(
     isa: I,
-    rows: &[[f64; W]],
+    rows: &[[I::Number; W]],
     first: usize,
 ) -> [I::F; 3] {
     let rows = &rows[first..first + 3];
@@ -144,7 +157,7 @@ pub(super) fn load3<const W: usize, I: Isa<W>>(
 pub(super) fn store3<const W: usize, I: Isa<W>>(
     isa: I,
     value: &[I::F; 3],
-    rows: &mut [[f64; W]],
+    rows: &mut [[I::Number; W]],
     first: usize,
 ) {
     let rows = &mut rows[first..first + 3];
@@ -159,7 +172,7 @@ fn keep3<const W: usize, I: Isa<W>>(
     isa: I,
     mask: I::M,
     value: &[I::F; 3],
-    rows: &mut [[f64; W]],
+    rows: &mut [[I::Number; W]],
     first: usize,
 ) {
     let rows = &mut rows[first..first + 3];

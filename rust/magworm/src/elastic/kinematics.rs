@@ -13,7 +13,7 @@ use crate::state::Block;
 pub fn update<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     if D == 2 {
         angles(isa, model, block);
@@ -29,7 +29,7 @@ pub fn update<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Axis of each magnet in the plane, from its angle.
 #[inline(always)]
-fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let (q, frame) = (&*block.q, &mut *block.frame);
     for (body, dof) in model.coordinates.bodies.iter().enumerate() {
         let (sin, cos) = sin_cos(isa.load(&q[dof + 2]));
@@ -40,7 +40,7 @@ fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>
 
 /// Axes of each magnet in space, from the frame of its element.
 #[inline(always)]
-fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let (director, frame) = (&*block.director, &mut *block.frame);
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         let up = load3(isa, director, 6 * magnet.element);
@@ -52,7 +52,11 @@ fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block
 }
 
 #[inline(always)]
-fn nodes<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn nodes<const W: usize, const D: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     let (q, frame, held) = (&*block.q, &*block.frame, &*block.held);
     let places = &mut *block.node;
     let axes = if D == 2 { 2 } else { 9 };
@@ -84,7 +88,7 @@ fn nodes<const W: usize, const D: usize, I: Isa<W>>(isa: I, model: &Model, block
 fn elements<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let node = &*block.node;
     let (tangent, lengths, inverses) =

@@ -96,22 +96,22 @@ impl<F: Real> Scheme<F> {
 
 /// Node positions and unknowns, for gradients over rigid nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Places<'a, const W: usize> {
+pub struct Places<'a, const W: usize, N> {
     /// Node positions [m], shape [nodes × D].
-    pub node: &'a [[f64; W]],
+    pub node: &'a [[N; W]],
     /// Unknowns [m, rad], shape [unknowns].
-    pub q: &'a [[f64; W]],
+    pub q: &'a [[N; W]],
 }
 
 /// Left-hand and right-hand side of a step's equations.
 #[derive(Debug)]
-pub struct Equations<'a, const W: usize> {
+pub struct Equations<'a, const W: usize, N> {
     /// Banded matrix.
-    pub matrix: &'a mut [[f64; W]],
+    pub matrix: &'a mut [[N; W]],
     /// Right-hand side, shape [unknowns].
-    pub right: &'a mut [[f64; W]],
+    pub right: &'a mut [[N; W]],
     /// Velocities at the start of the step, as springs take them, shape [unknowns].
-    pub v: &'a [[f64; W]],
+    pub v: &'a [[N; W]],
 }
 
 /// Gradient over a stencil's unknowns from gradients over its nodes, into `out`: an array that is
@@ -121,7 +121,7 @@ pub struct Equations<'a, const W: usize> {
 #[inline(always)]
 pub fn gather<const W: usize, const D: usize, I: Isa<W>, const N: usize>(
     isa: I,
-    places: Places<'_, W>,
+    places: Places<'_, W, I::Number>,
     stencil: &Stencil,
     gradient: &[[I::F; D]; N],
     out: &mut [I::F; MOST],
@@ -180,7 +180,7 @@ pub fn gather_twist<F: crate::lanes::Real>(
 #[inline(always)]
 pub fn add_rank_one<const W: usize, I: Isa<W>>(
     isa: I,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
     stencil: &Stencil,
     gradient: &[I::F],
     weight: I::F,
@@ -192,7 +192,7 @@ pub fn add_rank_one<const W: usize, I: Isa<W>>(
 #[inline(always)]
 pub fn add_rank<const W: usize, I: Isa<W>, const K: usize>(
     isa: I,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
@@ -215,7 +215,7 @@ pub fn add_rank<const W: usize, I: Isa<W>, const K: usize>(
 #[inline(always)]
 fn rank<const W: usize, I: Isa<W>, const K: usize, const N: usize>(
     isa: I,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
@@ -228,7 +228,7 @@ fn rank<const W: usize, I: Isa<W>, const K: usize, const N: usize>(
 #[inline(always)]
 fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
     isa: I,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
@@ -253,7 +253,7 @@ fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
 #[inline(always)]
 pub fn add_scaled<const W: usize, I: Isa<W>>(
     isa: I,
-    vector: &mut [[f64; W]],
+    vector: &mut [[I::Number; W]],
     stencil: &Stencil,
     gradient: &[I::F],
     weight: I::F,
@@ -268,7 +268,7 @@ pub fn add_scaled<const W: usize, I: Isa<W>>(
 #[inline(always)]
 pub fn rate<const W: usize, I: Isa<W>>(
     isa: I,
-    vector: &[[f64; W]],
+    vector: &[[I::Number; W]],
     stencil: &Stencil,
     gradient: &[I::F],
 ) -> I::F {
@@ -293,7 +293,7 @@ impl<F, const K: usize> Springs<'_, F, K> {
     fn add<const W: usize, I: Isa<W, F = F>>(
         &self,
         isa: I,
-        equations: &mut Equations<'_, W>,
+        equations: &mut Equations<'_, W, I::Number>,
         scheme: Scheme<F>,
     ) where
         F: Real<Mask = I::M>,

@@ -32,7 +32,7 @@ use crate::state::Block;
 pub fn assemble<const W: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     scheme: Scheme<I::F>,
 ) {
     let zero = isa.splat(0.0);
@@ -87,7 +87,11 @@ struct Strains<F> {
 
 impl<F: Real> Joint<F> {
     #[inline(always)]
-    fn load<const W: usize, I: Isa<W, F = F>>(isa: I, block: &Block<W>, node: usize) -> Self {
+    fn load<const W: usize, I: Isa<W, F = F>>(
+        isa: I,
+        block: &Block<W, I::Number>,
+        node: usize,
+    ) -> Self {
         let (e, f) = (node - 1, node);
         let te = load3(isa, &block.tangent, 3 * e);
         let tf = load3(isa, &block.tangent, 3 * f);
@@ -113,7 +117,7 @@ impl<F: Real> Joint<F> {
     fn strains<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
         &self,
         isa: I,
-        block: &mut Block<W>,
+        block: &mut Block<W, I::Number>,
         law: Curvature,
         k: usize,
     ) -> Strains<F> {
@@ -138,7 +142,7 @@ impl<F: Real> Joint<F> {
     fn twist<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
         &self,
         isa: I,
-        block: &mut Block<W>,
+        block: &mut Block<W, I::Number>,
         k: usize,
     ) -> F {
         let tangents = add_scaled(&self.te, isa.splat(1.0), &self.tf);
@@ -157,7 +161,7 @@ impl<F: Real> Joint<F> {
     fn gradients<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
         &self,
         isa: I,
-        places: Places<'_, W>,
+        places: Places<'_, W, I::Number>,
         spring: &Bend,
         strains: &Strains<F>,
         out: &mut [[F; MOST]; 3],
@@ -200,7 +204,7 @@ impl<F: Real> Joint<F> {
 #[inline(always)]
 fn over_nodes<const W: usize, I: Isa<W>>(
     isa: I,
-    places: Places<'_, W>,
+    places: Places<'_, W, I::Number>,
     spring: &Bend,
     de: &[I::F; 3],
     df: &[I::F; 3],

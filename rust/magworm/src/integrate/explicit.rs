@@ -15,7 +15,7 @@ use crate::state::Block;
 pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     scheme: Scheme<I::F>,
 ) {
     rod::<W, D, I>(isa, model, block, scheme);
@@ -28,7 +28,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
 fn constrain<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     tie: &Tie,
     dt: f64,
 ) {
@@ -63,7 +63,7 @@ fn constrain<const W: usize, const D: usize, I: Isa<W>>(
 fn set<const W: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     a: usize,
     b: usize,
     value: I::F,

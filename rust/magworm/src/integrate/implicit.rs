@@ -21,7 +21,7 @@ use crate::state::Block;
 pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     scheme: Scheme<I::F>,
 ) {
     rod::<W, D, I>(isa, model, block, scheme);

@@ -13,7 +13,7 @@ const WRENCH: usize = 6;
 
 /// Adds Δt m g to the right-hand side. Multipliers have no mass and rotations no weight.
 #[inline(always)]
-pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
     for &(dof, axis) in &model.translations {
@@ -27,7 +27,7 @@ pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
 pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let program = &model.program;
     if program.magnetics.is_none() && program.uniform_field.is_none() {
@@ -71,7 +71,7 @@ pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
 fn uniform_torque<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, I::Number>,
     body: usize,
     wrench: &mut [I::F; WRENCH],
 ) {
@@ -98,7 +98,7 @@ fn planar_wrench<const W: usize, I: Isa<W>>(
     isa: I,
     magnetics: &Magnetics,
     drive: &DriveModel,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     [body, dof]: [usize; 2],
     robot: I::F,
     total: &mut [I::F; WRENCH],
@@ -130,7 +130,7 @@ fn spatial_wrench<const W: usize, I: Isa<W>>(
     isa: I,
     magnetics: &Magnetics,
     drive: &DriveModel,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     [body, dof]: [usize; 2],
     robot: I::F,
     (sin, cos): (I::F, I::F),

@@ -22,9 +22,9 @@ pub use loads::{gravity, magnets};
 pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
-    block.matrix.fill([0.0; W]);
+    block.matrix.fill([Default::default(); W]);
     diagonal_inertia(isa, model, block);
     if D == 3 {
         rotary_inertia(isa, model, block);
@@ -36,7 +36,7 @@ pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
 pub fn springs<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
 ) {
     let scheme = scheme(isa, model, block);
     match model.scene.solver.integrator {
@@ -49,7 +49,11 @@ pub fn springs<const W: usize, const D: usize, I: Isa<W>>(
 
 /// M on the left, M v on the right.
 #[inline(always)]
-fn diagonal_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn diagonal_inertia<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     for dof in 0..model.coordinates.count {
         let mass = isa.load(&block.mass[dof]);
         isa.store(mass, &mut block.matrix[model.system.at(dof, dof)]);
@@ -59,7 +63,11 @@ fn diagonal_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mu
 
 /// The same for the rotation of the magnets in space, whose inertia Σ I a aᵀ turns with their axes a.
 #[inline(always)]
-fn rotary_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W>) {
+fn rotary_inertia<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<W, I::Number>,
+) {
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
         let axes = elastic::axes(isa, block, body);
         let first = dof + 3;
@@ -83,7 +91,11 @@ fn rotary_inertia<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut 
 }
 
 #[inline(always)]
-fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) -> Scheme<I::F> {
+fn scheme<const W: usize, I: Isa<W>>(
+    isa: I,
+    model: &Model,
+    block: &Block<W, I::Number>,
+) -> Scheme<I::F> {
     let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
     let damping_s = factor(Parameter::Damping) * model.scene.material.damping_time_s;
     let integrator = model.scene.solver.integrator;
@@ -95,7 +107,7 @@ fn scheme<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W>) ->
 fn rod<const W: usize, const D: usize, I: Isa<W>>(
     isa: I,
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, I::Number>,
     scheme: Scheme<I::F>,
 ) {
     elastic::stretch::<W, D, I>(isa, model, block, scheme);

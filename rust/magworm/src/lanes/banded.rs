@@ -69,7 +69,7 @@ impl Band {
     }
 
     /// Factors in place: strictly lower entries become L, diagonal entries 1/D.
-    pub fn factor<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[f64; W]]) {
+    pub fn factor<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[I::Number; W]]) {
         match self.half_bandwidth {
             5 => vectorized!(isa, factor::<W, I, 5, 6>(isa, self.size, matrix)),
             6 => vectorized!(isa, factor::<W, I, 6, 7>(isa, self.size, matrix)),
@@ -86,9 +86,9 @@ impl Band {
     pub fn multiply<const W: usize, I: Isa<W>>(
         &self,
         isa: I,
-        matrix: &[[f64; W]],
-        vector: &[[f64; W]],
-        product: &mut [[f64; W]],
+        matrix: &[[I::Number; W]],
+        vector: &[[I::Number; W]],
+        product: &mut [[I::Number; W]],
     ) {
         for row in 0..self.size {
             let mut sum = isa.splat(0.0);
@@ -107,8 +107,8 @@ impl Band {
     pub fn solve<const W: usize, I: Isa<W>>(
         &self,
         isa: I,
-        factored: &[[f64; W]],
-        right: &mut [[f64; W]],
+        factored: &[[I::Number; W]],
+        right: &mut [[I::Number; W]],
     ) {
         match self.half_bandwidth {
             5 => vectorized!(isa, solve::<W, I, 5, 6>(isa, factored, right)),
@@ -127,7 +127,7 @@ impl Band {
 fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    matrix: &mut [[f64; W]],
+    matrix: &mut [[I::Number; W]],
 ) {
     let (rows, _) = matrix.as_chunks_mut::<ROW>();
     for row in H..size + H {
@@ -139,7 +139,7 @@ fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
 #[inline(always)]
 pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
-    rows: &mut [[[f64; W]; ROW]],
+    rows: &mut [[[I::Number; W]; ROW]],
     row: usize,
 ) {
     let one = isa.splat(1.0);
@@ -167,8 +167,8 @@ pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: u
 #[inline(always)]
 fn solve<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
-    factored: &[[f64; W]],
-    right: &mut [[f64; W]],
+    factored: &[[I::Number; W]],
+    right: &mut [[I::Number; W]],
 ) {
     let (rows, _) = factored.as_chunks::<ROW>();
     let mut known = [isa.splat(0.0); H];

@@ -179,7 +179,7 @@ impl Chain {
     }
 
     /// The entries of the kept unknowns.
-    pub fn kept_entries<'a, const W: usize>(&self, matrix: &'a [[f64; W]]) -> &'a [[f64; W]] {
+    pub fn kept_entries<'a, const W: usize, N>(&self, matrix: &'a [[N; W]]) -> &'a [[N; W]] {
         &matrix[self.start_of_kept()..]
     }
 
@@ -196,8 +196,8 @@ impl Chain {
     pub fn condense<const W: usize, I: Isa<W>>(
         &self,
         isa: I,
-        matrix: &mut [[f64; W]],
-        right: &mut [[f64; W]],
+        matrix: &mut [[I::Number; W]],
+        right: &mut [[I::Number; W]],
     ) {
         let (soft, kept) = matrix.split_at_mut(self.start_of_kept());
         let (band, border) = soft.split_at_mut(self.start_of_border());
@@ -214,9 +214,9 @@ impl Chain {
     pub fn recover<const W: usize, I: Isa<W>>(
         &self,
         isa: I,
-        matrix: &[[f64; W]],
-        right: &[[f64; W]],
-        solution: &mut [[f64; W]],
+        matrix: &[[I::Number; W]],
+        right: &[[I::Number; W]],
+        solution: &mut [[I::Number; W]],
     ) {
         let (band, border) = matrix[..self.start_of_kept()].split_at(self.start_of_border());
         for segment in &self.segments {

@@ -1,8 +1,9 @@
 //! Lanes: W environments side by side in one vector.
 //!
-//! Kernels are written once against [`Real`] (a vector of `f64`), [`Mask`] and [`Isa`] (an
+//! Kernels are written once against [`Real`] (a vector of numbers), [`Mask`] and [`Isa`] (an
 //! instruction set of a given width) and run as plain `f64` ([`Scalar`], one lane) or as eight
-//! lanes ([`Wide`]) on whatever instruction set the processor offers at run time.
+//! lanes ([`Wide`]) on whatever instruction set the processor offers at run time. In single precision
+//! they run as plain `f32` ([`ScalarSingle`]) or as sixteen lanes ([`WideSingle`]): as many bytes, twice the robots.
 //!
 //! Only IEEE-exact operations are offered: `+ − × ÷ √`, comparison and selection, and exact bit
 //! manipulation. There is no fused multiply-add, no approximate reciprocal, no platform `libm`.
@@ -14,12 +15,19 @@
 pub mod banded;
 pub mod chain;
 pub mod math;
+mod number;
 mod scalar;
+mod single;
 pub mod unsymmetric;
 mod wide;
 
-pub use scalar::Scalar;
-pub use wide::{InstructionSet, WIDE, Wide, WideTask, run_wide, run_wide_on};
+pub use number::Number;
+pub use scalar::{Scalar, ScalarSingle};
+pub use single::Single;
+pub use wide::{
+    InstructionSet, WIDE, WIDE_SINGLE, Wide, WideSingle, WideTask, run_single_on, run_wide,
+    run_wide_on,
+};
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -33,7 +41,8 @@ pub trait Mask:
     fn all(self) -> bool;
 }
 
-/// A vector of `f64`, one per lane, with IEEE-exact arithmetic.
+/// A vector of numbers, one per lane, with IEEE-exact arithmetic. Constants are given as `f64` and rounded to the
+/// precision of its numbers.
 pub trait Real:
     Copy
     + Send
@@ -50,6 +59,8 @@ pub trait Real:
 {
     /// One truth value per lane.
     type Mask: Mask;
+    /// What rows of it hold.
+    type Number: Number;
 
     /// The constant `value` in every lane.
     fn splat(self, value: f64) -> Self;
@@ -105,17 +116,19 @@ pub trait Real:
 
 /// An instruction set with vectors of `W` lanes.
 pub trait Isa<const W: usize>: Copy + Send + Sync {
-    /// The vector of `f64`.
-    type F: Real<Mask = Self::M>;
+    /// What rows hold.
+    type Number: Number;
+    /// The vector of numbers.
+    type F: Real<Mask = Self::M, Number = Self::Number>;
     /// The vector of truth values.
     type M: Mask;
 
     /// The constant `value` in every lane.
     fn splat(self, value: f64) -> Self::F;
     /// Reads a row, one number per lane.
-    fn load(self, row: &[f64; W]) -> Self::F;
+    fn load(self, row: &[Self::Number; W]) -> Self::F;
     /// Writes a row, one number per lane.
-    fn store(self, value: Self::F, row: &mut [f64; W]);
+    fn store(self, value: Self::F, row: &mut [Self::Number; W]);
     /// Runs `f` compiled for this instruction set.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
 }

@@ -53,8 +53,8 @@ macro_rules! dispatch {
 pub fn expand<const W: usize, I: Isa<W>>(
     isa: I,
     band: &Band,
-    lower: &[[f64; W]],
-    full: &mut [[f64; W]],
+    lower: &[[I::Number; W]],
+    full: &mut [[I::Number; W]],
 ) {
     let size = band.size();
     dispatch!(band, H, ROW => {
@@ -66,8 +66,8 @@ pub fn expand<const W: usize, I: Isa<W>>(
 fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    lower: &[[f64; W]],
-    full: &mut [[f64; W]],
+    lower: &[[I::Number; W]],
+    full: &mut [[I::Number; W]],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for row in H..size + H {
@@ -81,7 +81,7 @@ fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     }
     // Beyond the last column an elimination may have left something that is not a number.
     for (beyond, row) in rows[size..size + H].iter_mut().enumerate() {
-        row[ROW - 1 - beyond..].fill([0.0; W]);
+        row[ROW - 1 - beyond..].fill([I::Number::default(); W]);
     }
 }
 
@@ -91,8 +91,8 @@ pub fn solve<const W: usize, I: Isa<W>>(
     isa: I,
     band: &Band,
     body: usize,
-    full: &mut [[f64; W]],
-    right: &mut [[f64; W]],
+    full: &mut [[I::Number; W]],
+    right: &mut [[I::Number; W]],
 ) {
     let size = band.size();
     match (band.half_bandwidth(), body) {
@@ -109,8 +109,8 @@ pub fn solve<const W: usize, I: Isa<W>>(
 fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const B: usize>(
     isa: I,
     size: usize,
-    full: &mut [[f64; W]],
-    right: &mut [[f64; W]],
+    full: &mut [[I::Number; W]],
+    right: &mut [[I::Number; W]],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for body in 0..size / B {
@@ -127,8 +127,8 @@ fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const
 #[inline(always)]
 fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const B: usize>(
     isa: I,
-    rows: &mut [[[f64; W]; ROW]],
-    right: &mut [[f64; W]],
+    rows: &mut [[[I::Number; W]; ROW]],
+    right: &mut [[I::Number; W]],
     row: usize,
     slot: usize,
 ) {
@@ -161,8 +161,8 @@ fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const 
 fn substitute<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    full: &[[f64; W]],
-    right: &mut [[f64; W]],
+    full: &[[I::Number; W]],
+    right: &mut [[I::Number; W]],
 ) {
     let (rows, _) = full.as_chunks::<ROW>();
     for row in (H..size + H).rev() {

@@ -1,8 +1,9 @@
-//! Eight lanes on the instruction set found at run time. The only file that names the SIMD crate.
+//! Eight lanes of `f64`, or sixteen of `f32`, on the instruction set found at run time. The only file that names the SIMD crate.
 
-use super::{Isa, Mask, Real};
+use super::{Isa, Mask, Number, Real, Single};
 use fearless_simd::{
-    Bytes, Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f64x8, mask64x8, u64x8,
+    Bytes, Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x16, f64x8, mask32x16,
+    mask64x8, u32x16, u64x8,
 };
 
 /// Number of lanes of [`Wide`].
@@ -12,12 +13,19 @@ pub const WIDE: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub struct Wide<S: Simd>(S);
 
-/// Work that is generic over the instruction set, for [`run_wide`].
-pub trait WideTask {
+/// Number of lanes of [`WideSingle`].
+pub const WIDE_SINGLE: usize = 16;
+
+/// The instruction set `S` with sixteen lanes of single precision.
+#[derive(Clone, Copy, Debug)]
+pub struct WideSingle<S: Simd>(S);
+
+/// Work on W lanes of numbers N that is generic over the instruction set, for [`run_wide`].
+pub trait WideTask<const W: usize = WIDE, N: Number = f64> {
     /// What the work returns.
     type Output;
     /// Does the work with the instruction set `isa`.
-    fn run<I: Isa<WIDE>>(self, isa: I) -> Self::Output;
+    fn run<I: Isa<W, Number = N>>(self, isa: I) -> Self::Output;
 }
 
 /// An instruction set that this processor has. Results do not depend on it.
@@ -78,6 +86,12 @@ pub fn run_wide_on<T: WideTask>(set: InstructionSet, task: T) -> T::Output {
     dispatch!(set.0, simd => task.run(Wide(simd)))
 }
 
+/// Runs `task` in single precision on one of the instruction sets that this processor has.
+#[inline]
+pub fn run_single_on<T: WideTask<WIDE_SINGLE, f32>>(set: InstructionSet, task: T) -> T::Output {
+    dispatch!(set.0, simd => task.run(WideSingle(simd)))
+}
+
 impl<S: Simd> Mask for mask64x8<S> {
     #[inline(always)]
     fn any(self) -> bool {
@@ -91,6 +105,7 @@ impl<S: Simd> Mask for mask64x8<S> {
 
 impl<S: Simd> Real for f64x8<S> {
     type Mask = mask64x8<S>;
+    type Number = f64;
 
     #[inline(always)]
     fn splat(self, value: f64) -> Self {
@@ -135,6 +150,7 @@ impl<S: Simd> Real for f64x8<S> {
 }
 
 impl<S: Simd> Isa<WIDE> for Wide<S> {
+    type Number = f64;
     type F = f64x8<S>;
     type M = mask64x8<S>;
 
@@ -156,6 +172,86 @@ impl<S: Simd> Isa<WIDE> for Wide<S> {
     }
 }
 
+impl<S: Simd> Mask for mask32x16<S> {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.any_true()
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.all_true()
+    }
+}
+
+impl<S: Simd> Real for Single<f32x16<S>> {
+    type Mask = mask32x16<S>;
+    type Number = f32;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self {
+        Self(SimdBase::splat(self.0.simd, value as f32))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(SimdFloat::sqrt(self.0))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.simd.abs_f32x16(self.0))
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Self(SimdFloat::copysign(self.0, sign.0))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        self.0.simd.simd_lt_f32x16(self.0, other.0)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Self::Mask {
+        self.0.simd.simd_le_f32x16(self.0, other.0)
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Self::Mask {
+        self.0.simd.simd_eq_f32x16(self.0, other.0)
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
+        Self(Select::select(mask, a.0, b.0))
+    }
+    #[inline(always)]
+    fn mantissa_exponent(self) -> (Self, Self) {
+        let bits: u32x16<S> = self.0.bitcast();
+        let mantissa: f32x16<S> = ((bits & 0x007f_ffff) | 0x3f80_0000).bitcast();
+        // 2^23 + n has n in its low mantissa bits: integer to float without a conversion.
+        let shifted: f32x16<S> = ((bits >> 23u32) | 0x4b00_0000).bitcast();
+        (Self(mantissa), Self(shifted - (8_388_608.0 + 127.0)))
+    }
+}
+
+impl<S: Simd> Isa<WIDE_SINGLE> for WideSingle<S> {
+    type Number = f32;
+    type F = Single<f32x16<S>>;
+    type M = mask32x16<S>;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self::F {
+        Single(SimdBase::splat(self.0, value as f32))
+    }
+    #[inline(always)]
+    fn load(self, row: &[f32; WIDE_SINGLE]) -> Self::F {
+        Single(f32x16::load_array_ref(self.0, row))
+    }
+    #[inline(always)]
+    fn store(self, value: Self::F, row: &mut [f32; WIDE_SINGLE]) {
+        value.0.store_array(row);
+    }
+    #[inline(always)]
+    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+        self.0.vectorize(f)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -166,7 +262,7 @@ mod tests {
     struct Exponents;
     impl WideTask for Exponents {
         type Output = ([f64; WIDE], [f64; WIDE]);
-        fn run<I: Isa<WIDE>>(self, isa: I) -> Self::Output {
+        fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) -> Self::Output {
             let (m, e) = isa.load(&SAMPLES).mantissa_exponent();
             let mut out = ([0.0; WIDE], [0.0; WIDE]);
             isa.store(m, &mut out.0);

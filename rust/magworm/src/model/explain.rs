@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
 use super::{Model, PairModel, UniformTorque};
-use crate::scene::{Curvature, Integrator};
+use crate::scene::{Curvature, Integrator, Precision};
 use std::fmt::Write;
 
 impl Model {
@@ -18,6 +18,11 @@ impl Model {
             Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
         };
         line("integrator", format!("{scheme}, step {} s{}", self.step_s, self.explain_limit()));
+        let precision = match self.scene.solver.precision {
+            Precision::Double => "double, eight robots in a vector",
+            Precision::Single => "single, sixteen robots in a vector",
+        };
+        line("precision", precision.into());
         let (unknowns, half) = (self.coordinates.count, self.system.half_bandwidth());
         line("unknowns", format!("{unknowns}, half-bandwidth {half}"));
         line("stretching", format!("{} elements", self.stretch.len()));

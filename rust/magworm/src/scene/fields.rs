@@ -219,6 +219,7 @@ static SOLVER: Table = Table {
         optional("wrench_interval", whole(1, MOST_STEPS_OF_A_WRENCH)),
         optional("contact_iterations", whole(1, 1000)),
         optional("curvature", Kind::Choice(&["angle", "tangent"])),
+        optional("precision", Kind::Choice(&["double", "single"])),
     ],
 };
 

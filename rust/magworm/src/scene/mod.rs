@@ -32,7 +32,8 @@ pub use error::{Problem, SceneError};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub use solver::{
-    Control, Curvature, Integrator, MagnetModel, Parameter, Reset, Solver, Start, Variation,
+    Control, Curvature, Integrator, MagnetModel, Parameter, Precision, Reset, Solver, Start,
+    Variation,
 };
 pub use surroundings::{Ground, MagneticTerms, UniformField};
 

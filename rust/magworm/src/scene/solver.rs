@@ -21,6 +21,8 @@ pub struct Solver {
     pub contact_iterations: usize,
     /// Discrete curvature of the rod.
     pub curvature: Curvature,
+    /// Precision of numbers in a step.
+    pub precision: Precision,
 }
 
 impl Default for Solver {
@@ -33,6 +35,7 @@ impl Default for Solver {
             wrench_interval: 1,
             contact_iterations: 120,
             curvature: Curvature::Angle,
+            precision: Precision::Double,
         }
     }
 }
@@ -58,6 +61,16 @@ pub enum Curvature {
     Angle,
     /// κ = 2 tan(φ/2), the paper's (Bergou 2008): its moment is greater by φ²/3, and infinite for a fold.
     Tangent,
+}
+
+/// Precision of the numbers that a step computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// 53 bits, eight robots in a vector.
+    Double,
+    /// 24 bits, sixteen robots in a vector.
+    Single,
 }
 
 /// Model of the wrench between two magnets.

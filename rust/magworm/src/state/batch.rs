@@ -5,10 +5,11 @@ use super::control::{ControlRows, Steps, control_block};
 use super::pool::Pool;
 use super::rollout::{Plan, RolloutOutput, rollout};
 use super::view::View;
-use crate::lanes::WIDE;
+use crate::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
+use crate::scene::Precision;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 /// Environments side by side in a vector, or one by one. Results are equal bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LaneChoice {
-    /// Eight per block.
+    /// Eight per block, sixteen in single precision.
     #[default]
     Wide,
     /// One per block.
@@ -38,14 +39,18 @@ pub struct Batch {
 enum Blocks {
     Wide(Vec<Block<WIDE>>),
     Scalar(Vec<Block<1>>),
+    WideSingle(Vec<Block<WIDE_SINGLE, f32>>),
+    ScalarSingle(Vec<Block<1, f32>>),
 }
 
-/// Runs `$body` with `$blocks` bound to the blocks of either width.
+/// Runs `$body` with `$blocks` bound to the blocks of any width and precision.
 macro_rules! with_blocks {
     ($any:expr, $blocks:ident => $body:expr) => {
         match $any {
             Blocks::Wide($blocks) => $body,
             Blocks::Scalar($blocks) => $body,
+            Blocks::WideSingle($blocks) => $body,
+            Blocks::ScalarSingle($blocks) => $body,
         }
     };
 }
@@ -64,9 +69,13 @@ impl Batch {
     /// `count` environments at rest in the scene's start pose; each waits for its first
     /// [`reset`](Self::reset). `threads`: none for one per core.
     pub fn new(model: Arc<Model>, count: usize, lanes: LaneChoice, threads: Option<usize>) -> Self {
-        let blocks = match lanes {
-            LaneChoice::Wide => Blocks::Wide(new_blocks(&model, count)),
-            LaneChoice::Scalar => Blocks::Scalar(new_blocks(&model, count)),
+        let blocks = match (lanes, model.scene.solver.precision) {
+            (LaneChoice::Wide, Precision::Double) => Blocks::Wide(new_blocks(&model, count)),
+            (LaneChoice::Scalar, Precision::Double) => Blocks::Scalar(new_blocks(&model, count)),
+            (LaneChoice::Wide, Precision::Single) => Blocks::WideSingle(new_blocks(&model, count)),
+            (LaneChoice::Scalar, Precision::Single) => {
+                Blocks::ScalarSingle(new_blocks(&model, count))
+            }
         };
         let present: Vec<bool> = model.mesh.magnets.iter().map(|m| m.present).collect();
         Self {
@@ -92,8 +101,8 @@ impl Batch {
     /// How environments are laid out.
     pub fn lanes(&self) -> LaneChoice {
         match self.blocks {
-            Blocks::Wide(_) => LaneChoice::Wide,
-            Blocks::Scalar(_) => LaneChoice::Scalar,
+            Blocks::Wide(_) | Blocks::WideSingle(_) => LaneChoice::Wide,
+            Blocks::Scalar(_) | Blocks::ScalarSingle(_) => LaneChoice::Scalar,
         }
     }
 
@@ -166,7 +175,9 @@ impl Batch {
     pub fn advance(&mut self, steps: u32) {
         let model = Arc::clone(&self.model);
         let pool = self.pool.get();
-        with_blocks!(&mut self.blocks, blocks => for_each(pool, blocks, |block| block.run(&model, steps)));
+        with_blocks!(&mut self.blocks, blocks => for_each(pool, blocks, |block| {
+            block.advance_on(InstructionSet::widest(), &model, steps);
+        }));
     }
 
     /// Writes the observations, shape [environments × observation].
@@ -214,18 +225,21 @@ impl Batch {
     }
 }
 
-fn new_blocks<const W: usize>(model: &Model, count: usize) -> Vec<Block<W>> {
+fn new_blocks<const W: usize, N: Number>(model: &Model, count: usize) -> Vec<Block<W, N>> {
     (0..count.div_ceil(W)).map(|_| Block::new(model)).collect()
 }
 
-fn place<const W: usize>(blocks: &[Block<W>], environment: usize) -> (&Block<W>, usize) {
+fn place<const W: usize, N: Number>(
+    blocks: &[Block<W, N>],
+    environment: usize,
+) -> (&Block<W, N>, usize) {
     (&blocks[environment / W], environment % W)
 }
 
-fn place_mut<const W: usize>(
-    blocks: &mut [Block<W>],
+fn place_mut<const W: usize, N: Number>(
+    blocks: &mut [Block<W, N>],
     environment: usize,
-) -> (&mut Block<W>, usize) {
+) -> (&mut Block<W, N>, usize) {
     (&mut blocks[environment / W], environment % W)
 }
 
@@ -241,17 +255,17 @@ fn for_each<B: Send>(
 }
 
 /// Blocks with the rows of the output that belong to each.
-fn control_step<const W: usize>(
+fn control_step<const W: usize, N: Number>(
     model: &Model,
-    blocks: &mut [Block<W>],
+    blocks: &mut [Block<W, N>],
     pool: Option<&rayon::ThreadPool>,
     actions: &[f64],
     output: StepOutput<'_>,
 ) where
-    Block<W>: Steps,
+    Block<W, N>: Steps,
 {
     let width = observe::size(model);
-    let work = |first: usize, block: &mut Block<W>, rows: ControlRows<'_>| {
+    let work = |first: usize, block: &mut Block<W, N>, rows: ControlRows<'_>| {
         control_block(model, block, first, actions, rows);
     };
     match pool {

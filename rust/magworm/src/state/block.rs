@@ -4,6 +4,7 @@ use super::rows::Rows;
 use crate::contact::Workspace;
 use crate::drive::stage_axes;
 use crate::integrate::held_rows;
+use crate::lanes::Number;
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -72,81 +73,81 @@ impl Counters {
 
 /// The state of W environments and the workspace of their step.
 #[derive(Clone, Debug)]
-pub struct Block<const W: usize> {
+pub struct Block<const W: usize, N: Number = f64> {
     // State. Every row is one number per lane; together with `status` this is a snapshot.
     /// Unknowns [m, rad], shape [unknowns].
-    pub q: Rows<W>,
+    pub q: Rows<W, N>,
     /// Their velocities [m/s, rad/s]; multipliers hold impulses [N·s], shape [unknowns].
-    pub v: Rows<W>,
+    pub v: Rows<W, N>,
     /// What the springs take for the velocities at the start of a step [m/s, rad/s], see [`crate::elastic::lag`],
     /// shape [unknowns].
-    pub lagged: Rows<W>,
+    pub lagged: Rows<W, N>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].
-    pub normal: Rows<W>,
+    pub normal: Rows<W, N>,
     /// What the spring of each pad holds along x and in space along z [N·s], shape [contacts × (D − 1)]. Friction
     /// differs from it by what the damper held in the last step.
-    pub pad: Rows<W>,
+    pub pad: Rows<W, N>,
     /// State of each contact, see [`crate::contact::Mode`], shape [contacts].
-    pub mode: Rows<W>,
+    pub mode: Rows<W, N>,
     /// Stage x, y, in space also z [m] and yaw [rad], then their velocities, shape [2 × axes].
-    pub stage: Rows<W>,
+    pub stage: Rows<W, N>,
     /// Targets of these axes, then the speed limit [m/s], shape [axes + 1].
-    pub target: Rows<W>,
+    pub target: Rows<W, N>,
     /// Last action, shape [action].
-    pub action: Rows<W>,
+    pub action: Rows<W, N>,
     /// Solver steps since the reset, shape [1].
-    pub step_count: Rows<W>,
+    pub step_count: Rows<W, N>,
     /// Factors of the scene's parameters in force, in the order of [`Model::PARAMETERS`].
-    pub factors: Rows<W>,
+    pub factors: Rows<W, N>,
     /// 1 where a magnet is in, 0 where it is out, shape [magnets].
-    pub present: Rows<W>,
+    pub present: Rows<W, N>,
     /// Positions of the nodes held in place [m], shape [fixed nodes × D].
-    pub held: Rows<W>,
+    pub held: Rows<W, N>,
     /// In space up direction and tangent of each element, shape [elements × 6].
-    pub director: Rows<W>,
+    pub director: Rows<W, N>,
     /// In space twist of each bending node [rad], beyond ±π where it has gone there, shape [bending nodes].
-    pub twist: Rows<W>,
+    pub twist: Rows<W, N>,
     /// Force [N] and torque [N·m] of the drive on each body magnet where they act for several steps, see
     /// [`crate::model::Magnetics::interval`], shape [magnets × 3], in space [magnets × 6]; else none.
-    pub wrench: Rows<W>,
+    pub wrench: Rows<W, N>,
     /// Status of each environment.
     pub status: [Status; W],
 
     // Derived from the factors and the magnets present, by reset.
     /// Mass of each unknown [kg, kg·m²], shape [unknowns].
-    pub mass: Rows<W>,
+    pub mass: Rows<W, N>,
     /// Remanence of each body magnet along its up direction [T], 0 where it is out, shape [magnets].
-    pub remanence: Rows<W>,
+    pub remanence: Rows<W, N>,
 
     // Workspace.
     /// 1 where the lane runs, 0 where it stands still, shape [1].
-    pub running: Rows<W>,
+    pub running: Rows<W, N>,
     /// Node positions [m], shape [nodes × D].
-    pub node: Rows<W>,
+    pub node: Rows<W, N>,
     /// Unit tangents, shape [elements × D].
-    pub tangent: Rows<W>,
+    pub tangent: Rows<W, N>,
     /// Lengths [m], shape [elements].
-    pub length: Rows<W>,
+    pub length: Rows<W, N>,
     /// Inverse lengths [1/m], shape [elements].
-    pub inverse_length: Rows<W>,
+    pub inverse_length: Rows<W, N>,
     /// In space side direction of each element, shape [elements × 3].
-    pub side: Rows<W>,
+    pub side: Rows<W, N>,
     /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
     /// shape [magnets × 9].
-    pub frame: Rows<W>,
+    pub frame: Rows<W, N>,
     /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
-    pub matrix: Rows<W>,
+    pub matrix: Rows<W, N>,
     /// Right-hand side [N·s], shape [unknowns].
-    pub right: Rows<W>,
+    pub right: Rows<W, N>,
     /// Velocities at the end of this step, shape [unknowns].
-    pub next: Rows<W>,
+    pub next: Rows<W, N>,
     /// The contact solve.
-    pub contact: Workspace<W>,
+    pub contact: Workspace<W, N>,
     /// Work done.
     pub counters: Counters,
 }
 
-impl<const W: usize> Block<W> {
+impl<const W: usize, N: Number> Block<W, N> {
     /// A block whose lanes are unused until they are reset.
     pub fn new(model: &Model) -> Self {
         let unknowns = model.coordinates.count;
@@ -193,7 +194,7 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows that change in time, in the order of a snapshot.
-    pub fn state_rows(&self) -> [&Rows<W>; 16] {
+    pub fn state_rows(&self) -> [&Rows<W, N>; 16] {
         [
             &self.q,
             &self.v,
@@ -215,7 +216,7 @@ impl<const W: usize> Block<W> {
     }
 
     /// The rows of [`Self::state_rows`], to be written.
-    pub fn state_rows_mut(&mut self) -> [&mut Rows<W>; 16] {
+    pub fn state_rows_mut(&mut self) -> [&mut Rows<W, N>; 16] {
         [
             &mut self.q,
             &mut self.v,

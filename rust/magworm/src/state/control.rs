@@ -2,55 +2,69 @@
 
 use super::block::{Block, Status};
 use crate::lanes::math::sin_cos;
-use crate::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
+use crate::lanes::{
+    InstructionSet, Isa, Number, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
+    run_wide_on,
+};
 use crate::model::{Model, Phase};
 use crate::observe;
 use crate::step::{advance, command, run_phase};
 
-/// A block that knows how to step itself.
-pub(super) trait Steps: Send {
-    fn run(&mut self, model: &Model, steps: u32);
-}
-
-impl Steps for Block<1> {
-    fn run(&mut self, model: &Model, steps: u32) {
-        advance(Scalar, model, self, steps);
-    }
-}
-
-impl Steps for Block<WIDE> {
-    fn run(&mut self, model: &Model, steps: u32) {
-        self.advance_on(InstructionSet::widest(), model, steps);
-    }
-}
-
-impl Block<WIDE> {
-    /// `steps` solver steps on an instruction set of this processor; the bits are those of any other.
-    pub fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32) {
-        struct Task<'a>(&'a Model, &'a mut Block<WIDE>, u32);
-        impl WideTask for Task<'_> {
-            type Output = ();
-            #[inline(always)]
-            fn run<I: Isa<WIDE>>(self, isa: I) {
-                advance(isa, self.0, self.1, self.2);
-            }
-        }
-        run_wide_on(set, Task(model, self, steps));
-    }
-
+/// A block that knows how to step itself. Bits are those of any other instruction set.
+pub trait Steps: Send {
+    /// `steps` solver steps on an instruction set of this processor; one lane takes none.
+    fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32);
     /// One phase of a solver step, to be looked at on its own; the phases of the model one after another are a step.
-    pub fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase) {
-        struct Task<'a>(&'a Model, &'a mut Block<WIDE>, Phase);
-        impl WideTask for Task<'_> {
-            type Output = ();
-            #[inline(always)]
-            fn run<I: Isa<WIDE>>(self, isa: I) {
-                run_phase(isa, self.0, self.1, self.2);
+    fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase);
+}
+
+macro_rules! one_lane {
+    ($number:ty, $isa:expr) => {
+        impl Steps for Block<1, $number> {
+            fn advance_on(&mut self, _: InstructionSet, model: &Model, steps: u32) {
+                advance($isa, model, self, steps);
+            }
+            fn run_phase_on(&mut self, _: InstructionSet, model: &Model, phase: Phase) {
+                run_phase($isa, model, self, phase);
             }
         }
-        run_wide_on(set, Task(model, self, phase));
-    }
+    };
 }
+
+macro_rules! many_lanes {
+    ($lanes:ident, $number:ty, $run_on:ident) => {
+        impl Steps for Block<$lanes, $number> {
+            fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32) {
+                struct Task<'a>(&'a Model, &'a mut Block<$lanes, $number>, u32);
+                impl WideTask<$lanes, $number> for Task<'_> {
+                    type Output = ();
+                    #[inline(always)]
+                    fn run<I: Isa<$lanes, Number = $number>>(self, isa: I) {
+                        advance(isa, self.0, self.1, self.2);
+                    }
+                }
+                $run_on(set, Task(model, self, steps));
+            }
+
+            fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase) {
+                struct Task<'a>(&'a Model, &'a mut Block<$lanes, $number>, Phase);
+                impl WideTask<$lanes, $number> for Task<'_> {
+                    type Output = ();
+                    #[inline(always)]
+                    fn run<I: Isa<$lanes, Number = $number>>(self, isa: I) {
+                        run_phase(isa, self.0, self.1, self.2);
+                    }
+                }
+                $run_on(set, Task(model, self, phase));
+            }
+        }
+    };
+}
+
+one_lane!(f64, Scalar);
+one_lane!(f32, ScalarSingle);
+many_lanes!(WIDE, f64, run_wide_on);
+many_lanes!(WIDE_SINGLE, f32, run_single_on);
 
 /// How far the centre has moved towards where the head was.
 fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
@@ -78,14 +92,14 @@ impl<'a> ControlRows<'a> {
 }
 
 /// One control step of a block whose first environment is `first`, see [`super::Batch::step`].
-pub(super) fn control_block<const W: usize>(
+pub(super) fn control_block<const W: usize, N: Number>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     first: usize,
     actions: &[f64],
     rows: ControlRows<'_>,
 ) where
-    Block<W>: Steps,
+    Block<W, N>: Steps,
 {
     let count = rows.status.len();
     if let Some(drive) = model.program.drive.as_ref().filter(|d| d.is_controlled()) {
@@ -98,7 +112,7 @@ pub(super) fn control_block<const W: usize>(
         }
     }
     let before: [[f64; 3]; W] = std::array::from_fn(|lane| block.robot_pose(model, lane));
-    block.run(model, model.steps_per_control);
+    block.advance_on(InstructionSet::widest(), model, model.steps_per_control);
     let width = observe::size(model);
     for lane in 0..count {
         rows.progress_m[lane] = progress_m(before[lane], block.robot_pose(model, lane));

@@ -12,6 +12,7 @@ mod view;
 
 pub use batch::{Batch, LaneChoice, StepOutput};
 pub use block::{Block, Counters, Status};
+pub use control::Steps;
 pub(crate) use pool::Pool;
 pub use pose::{Pose, Twist};
 pub use rollout::{Plan, RolloutOutput};

@@ -1,6 +1,7 @@
 //! Where the parts of a robot are, one lane at a time. In the plane z and all rotations but about z are 0.
 
 use super::block::Block;
+use crate::lanes::Number;
 use crate::lanes::math::{atan2, sin_cos};
 use crate::model::{Anchor, Model};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -38,7 +39,7 @@ pub struct Twist {
     pub angular_rad_s: Vector3<f64>,
 }
 
-impl<const W: usize> Block<W> {
+impl<const W: usize, N: Number> Block<W, N> {
     /// Position [m] of a node in one lane.
     pub fn node_position(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
         let axes = model.dimensions();
@@ -58,7 +59,7 @@ impl<const W: usize> Block<W> {
         let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
         let position_m = self.vector(&self.q, dof, axes, lane);
         let orientation = if axes == 2 {
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.q[dof + 2][lane])
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.q[dof + 2][lane].f64())
         } else {
             let element = model.mesh.magnets[magnet].element;
             let up = self.vector(&self.director, 6 * element, 3, lane);
@@ -73,7 +74,7 @@ impl<const W: usize> Block<W> {
     pub fn magnet_velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist {
         let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
         let angular_rad_s = if axes == 2 {
-            Vector3::z() * self.v[dof + 2][lane]
+            Vector3::z() * self.v[dof + 2][lane].f64()
         } else {
             self.vector(&self.v, dof + 3, 3, lane)
         };
@@ -85,11 +86,11 @@ impl<const W: usize> Block<W> {
     pub fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
         let dof = model.coordinates.bodies[magnet];
         let angle = if model.dimensions() == 2 {
-            self.q[dof + 2][lane]
+            self.q[dof + 2][lane].f64()
         } else {
             self.magnet_pose(model, magnet, lane).pitch_rad()
         };
-        [self.q[dof][lane], self.q[dof + 1][lane], angle]
+        [self.q[dof][lane].f64(), self.q[dof + 1][lane].f64(), angle]
     }
 
     /// Velocity of a body magnet in the plane x–y in one lane [m/s, m/s, rad/s].
@@ -128,20 +129,20 @@ impl<const W: usize> Block<W> {
             let sum: f64 = (0..nodes).map(|n| self.node_position(model, n, lane)[axis]).sum();
             return sum / nodes as f64;
         }
-        let places = model.coordinates.bodies.iter().map(|&dof| self.q[dof + axis][lane]);
+        let places = model.coordinates.bodies.iter().map(|&dof| self.q[dof + axis][lane].f64());
         places.sum::<f64>() / magnets as f64
     }
 
     fn tangent(&self, model: &Model, body: usize, lane: usize) -> Vector3<f64> {
         if model.dimensions() == 2 {
-            let (sin, cos) = sin_cos(self.q[model.coordinates.bodies[body] + 2][lane]);
+            let (sin, cos) = sin_cos(self.q[model.coordinates.bodies[body] + 2][lane].f64());
             return Vector3::new(cos, sin, 0.0);
         }
         self.vector(&self.director, 6 * model.mesh.magnets[body].element + 3, 3, lane)
     }
 
-    fn vector(&self, rows: &[[f64; W]], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
-        let component = |k: usize| if k < axes { rows[first + k][lane] } else { 0.0 };
+    fn vector(&self, rows: &[[N; W]], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
+        let component = |k: usize| if k < axes { rows[first + k][lane].f64() } else { 0.0 };
         Vector3::new(component(0), component(1), component(2))
     }
 }

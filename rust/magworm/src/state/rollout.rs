@@ -6,6 +6,7 @@
 use super::block::Block;
 use super::control::{ControlRows, Steps, control_block};
 use super::view::View;
+use crate::lanes::Number;
 use crate::model::Model;
 use rayon::ThreadPool;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -50,9 +51,9 @@ struct Instant<'a> {
 }
 
 /// See [`super::Batch::rollout`].
-pub(super) fn rollout<const W: usize>(
+pub(super) fn rollout<const W: usize, N: Number>(
     model: &Model,
-    blocks: &mut [Block<W>],
+    blocks: &mut [Block<W, N>],
     count: usize,
     pool: Option<&ThreadPool>,
     plan: Plan<'_>,
@@ -60,11 +61,11 @@ pub(super) fn rollout<const W: usize>(
     interrupted: &mut dyn FnMut() -> bool,
 ) -> bool
 where
-    Block<W>: Steps,
+    Block<W, N>: Steps,
 {
     let stop = AtomicBool::new(false);
     let instants = by_block(blocks, count, plan.control_steps, output);
-    let work = |(index, (block, instants)): (usize, (&mut [Block<W>], Vec<Instant<'_>>))| {
+    let work = |(index, (block, instants)): (usize, (&mut [Block<W, N>], Vec<Instant<'_>>))| {
         trajectory(model, &mut block[0], index * W, plan, instants, &stop);
     };
     watched(pool, &stop, interrupted, || match pool {
@@ -77,15 +78,15 @@ where
 }
 
 /// All control steps of a block whose first environment is `first`.
-fn trajectory<const W: usize>(
+fn trajectory<const W: usize, N: Number>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     first: usize,
     plan: Plan<'_>,
     instants: Vec<Instant<'_>>,
     stop: &AtomicBool,
 ) where
-    Block<W>: Steps,
+    Block<W, N>: Steps,
 {
     let per_step = plan.actions.len() / plan.control_steps.max(1);
     for (step, instant) in instants.into_iter().enumerate() {
@@ -98,9 +99,9 @@ fn trajectory<const W: usize>(
     }
 }
 
-fn note_poses<const W: usize>(
+fn note_poses<const W: usize, N: Number>(
     model: &Model,
-    block: &Block<W>,
+    block: &Block<W, N>,
     robot_pose: &mut [f64],
     magnet_pose: &mut [f64],
 ) {
@@ -120,8 +121,8 @@ fn note_poses<const W: usize>(
 }
 
 /// Deals the rows of an output out, `[block][control step]`.
-fn by_block<'a, const W: usize>(
-    blocks: &[Block<W>],
+fn by_block<'a, const W: usize, N: Number>(
+    blocks: &[Block<W, N>],
     count: usize,
     control_steps: usize,
     mut output: RolloutOutput<'a>,

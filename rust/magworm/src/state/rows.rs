@@ -1,31 +1,32 @@
 //! Rows of lanes, aligned to a cache line so that a vector never straddles two.
 
+use crate::lanes::Number;
 use std::ops::{Deref, DerefMut};
 
 const LINE_BYTES: usize = 64;
-const LINE: usize = LINE_BYTES / size_of::<f64>();
 
 /// A list of rows, one number per lane in each.
 #[derive(Debug)]
-pub struct Rows<const W: usize> {
-    store: Vec<f64>,
+pub struct Rows<const W: usize, N = f64> {
+    store: Vec<N>,
     start: usize,
     rows: usize,
 }
 
-impl<const W: usize> Rows<W> {
+impl<const W: usize, N: Number> Rows<W, N> {
     /// `rows` rows of zeros.
     pub fn zeros(rows: usize) -> Self {
-        let store = vec![0.0; rows * W + LINE];
+        let line = LINE_BYTES / size_of::<N>();
+        let store = vec![N::default(); rows * W + line];
         let start = match store.as_ptr().align_offset(LINE_BYTES) {
-            offset if offset < LINE => offset,
+            offset if offset < line => offset,
             _ => 0,
         };
         Self { store, start, rows }
     }
 }
 
-impl<const W: usize> Clone for Rows<W> {
+impl<const W: usize, N: Number> Clone for Rows<W, N> {
     fn clone(&self) -> Self {
         let mut copy = Self::zeros(self.rows);
         copy.copy_from_slice(self);
@@ -33,15 +34,15 @@ impl<const W: usize> Clone for Rows<W> {
     }
 }
 
-impl<const W: usize> Deref for Rows<W> {
-    type Target = [[f64; W]];
+impl<const W: usize, N: Number> Deref for Rows<W, N> {
+    type Target = [[N; W]];
     #[inline(always)]
     fn deref(&self) -> &Self::Target {
         self.store[self.start..self.start + self.rows * W].as_chunks().0
     }
 }
 
-impl<const W: usize> DerefMut for Rows<W> {
+impl<const W: usize, N: Number> DerefMut for Rows<W, N> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut Self::Target {
         self.store[self.start..self.start + self.rows * W].as_chunks_mut().0

@@ -2,10 +2,11 @@
 //!
 //! A snapshot is a header (magic, version, environments, bytes per environment, fingerprint of the
 //! scene) and one column per environment, so it does not depend on how environments were laid out in
-//! lanes. Numbers are little-endian.
+//! lanes. Numbers are little-endian `f64`, which hold those of a scene in single precision too.
 
 use super::batch::Batch;
 use super::block::{Block, Status};
+use crate::lanes::Number;
 use crate::model::Model;
 use crate::reset::apply_parameters;
 use std::sync::Arc;
@@ -136,23 +137,27 @@ impl Batch {
     }
 }
 
-pub(super) fn write_lane<const W: usize>(block: &Block<W>, lane: usize, out: &mut Vec<u8>) {
+pub(super) fn write_lane<const W: usize, N: Number>(
+    block: &Block<W, N>,
+    lane: usize,
+    out: &mut Vec<u8>,
+) {
     for rows in block.state_rows() {
-        rows.iter().for_each(|row| out.extend(row[lane].to_bits().to_le_bytes()));
+        rows.iter().for_each(|row| out.extend(row[lane].f64().to_bits().to_le_bytes()));
     }
     out.push(block.status[lane] as u8);
 }
 
-pub(super) fn read_lane<const W: usize>(
+pub(super) fn read_lane<const W: usize, N: Number>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<W, N>,
     lane: usize,
     column: &[u8],
 ) {
     let mut numbers = column.chunks_exact(8).map(|bits| f64::from_bits(number(bits)));
     for rows in block.state_rows_mut() {
         for row in rows.iter_mut() {
-            row[lane] = numbers.next().unwrap_or(0.0);
+            row[lane] = N::of(numbers.next().unwrap_or(0.0));
         }
     }
     let code = column[column.len() - 1];

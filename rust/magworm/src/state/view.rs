@@ -3,6 +3,7 @@
 use super::block::{Block, Status};
 use super::pose::{Pose, Twist};
 use crate::drive::stage_axes;
+use crate::lanes::Number;
 use crate::model::Model;
 use crate::observe;
 use nalgebra::Vector3;
@@ -16,7 +17,11 @@ pub struct View<'a> {
 
 impl<'a> View<'a> {
     /// One lane of a block.
-    pub(super) fn new<const W: usize>(model: &'a Model, block: &'a Block<W>, lane: usize) -> Self {
+    pub(super) fn new<const W: usize, N: Number>(
+        model: &'a Model,
+        block: &'a Block<W, N>,
+        lane: usize,
+    ) -> Self {
         Self { model, block, lane }
     }
 }
@@ -36,7 +41,7 @@ trait LaneView {
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64>;
 }
 
-impl<const W: usize> LaneView for Block<W> {
+impl<const W: usize, N: Number> LaneView for Block<W, N> {
     fn node(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
         self.node_position(model, node, lane)
     }
@@ -53,13 +58,13 @@ impl<const W: usize> LaneView for Block<W> {
         Block::planar_velocity(self, model, magnet, lane)
     }
     fn stage(&self, row: usize, lane: usize) -> f64 {
-        self.stage[row][lane]
+        self.stage[row][lane].f64()
     }
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
         Block::robot_pose(self, model, lane)
     }
     fn steps(&self, lane: usize) -> f64 {
-        self.step_count[0][lane]
+        self.step_count[0][lane].f64()
     }
     fn status(&self, lane: usize) -> Status {
         self.status[lane]
@@ -69,8 +74,11 @@ impl<const W: usize> LaneView for Block<W> {
     }
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64> {
         let along = model.dimensions() - 1;
-        let pad = (0..along).map(|t| self.pad[along * contact + t][lane]);
-        [self.mode[contact][lane], self.normal[contact][lane]].into_iter().chain(pad).collect()
+        let pad = (0..along).map(|t| self.pad[along * contact + t][lane].f64());
+        [self.mode[contact][lane].f64(), self.normal[contact][lane].f64()]
+            .into_iter()
+            .chain(pad)
+            .collect()
     }
 }
 

@@ -153,6 +153,10 @@ fn solver(dice: &mut Dice) -> Solver {
         wrench_interval: 1,
         contact_iterations: dice.whole(1, 1000),
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
+        precision: match integrator {
+            Integrator::Explicit => Precision::Double,
+            _ => dice.one_of(&[Precision::Double, Precision::Single]),
+        },
     }
 }
 

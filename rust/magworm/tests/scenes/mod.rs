@@ -46,6 +46,43 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
              y_m = [-0.052, -0.022, -0.03] }",
         )],
     ),
+    ("single precision", "paper-3", &[("solver.precision", "'single'"), ("solver.step_s", "5e-3")]),
+    (
+        "belt in single precision",
+        "belt-125",
+        &[("solver.precision", "'single'"), ("solver.integrator", "'euler'")],
+    ),
+    (
+        "single precision in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("solver.precision", "'single'"),
+            ("drive.motion.lateral_reach_m", "0.04"),
+            ("drive.motion.yaw_reach_deg", "120"),
+        ],
+    ),
+    (
+        "dipoles in single precision in space",
+        "paper-4",
+        &[
+            ("dimensions", "3"),
+            ("solver.precision", "'single'"),
+            ("solver.magnet_model", "'dipole'"),
+            ("drive.motion.lateral_reach_m", "0.03"),
+            ("field", "{ x_t = 0.01, y_t = -0.02, z_t = 0.015 }"),
+        ],
+    ),
+    (
+        "cantilever in single precision in space",
+        "cantilever",
+        &[
+            ("dimensions", "3"),
+            ("solver.precision", "'single'"),
+            ("start.yaw_deg", "40"),
+            ("start.angle_deg", "20"),
+        ],
+    ),
     (
         "held wrenches",
         "paper-3",

@@ -1,25 +1,30 @@
 //! Elimination of one segment between two bodies, and the way back.
 
-use super::super::Isa;
 use super::super::banded::factor_row;
+use super::super::{Isa, Number};
 use super::{Chain, Segment};
 
 /// The stored parts of a system.
-pub(super) struct Parts<'a, const W: usize> {
+pub(super) struct Parts<'a, const W: usize, N> {
     pub(super) chain: &'a Chain,
-    pub(super) band: &'a mut [[f64; W]],
-    pub(super) border: &'a mut [[f64; W]],
-    pub(super) kept: &'a mut [[f64; W]],
+    pub(super) band: &'a mut [[N; W]],
+    pub(super) border: &'a mut [[N; W]],
+    pub(super) kept: &'a mut [[N; W]],
 }
 
-impl<const W: usize> Parts<'_, W> {
+impl<const W: usize, N: Number> Parts<'_, W, N> {
     /// Eliminates a segment.
     #[inline(always)]
-    pub(super) fn condense<I: Isa<W>, const H: usize, const ROW: usize, const K: usize>(
+    pub(super) fn condense<
+        I: Isa<W, Number = N>,
+        const H: usize,
+        const ROW: usize,
+        const K: usize,
+    >(
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [[f64; W]],
+        right: &mut [[N; W]],
     ) {
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
         for row in segment.rows.clone() {
@@ -38,11 +43,11 @@ impl<const W: usize> Parts<'_, W> {
 
     /// The body before a segment: carries its border down, and takes what the segment adds to it.
     #[inline(always)]
-    fn eliminate_left<I: Isa<W>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_left<I: Isa<W, Number = N>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [[f64; W]],
+        right: &mut [[N; W]],
     ) {
         let Some(left) = segment.left else { return };
         let Some(place) = self.chain.place(left) else { return };
@@ -83,12 +88,12 @@ impl<const W: usize> Parts<'_, W> {
 
     /// A row of the body behind a segment, and what the segment adds to it.
     #[inline(always)]
-    fn eliminate_right<I: Isa<W>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_right<I: Isa<W, Number = N>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
         [first, slot]: [usize; 2],
-        right: &mut [[f64; W]],
+        right: &mut [[N; W]],
     ) {
         let Some(place) = self.chain.place(first) else { return };
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
@@ -137,7 +142,7 @@ fn first_column<const H: usize>(segment: &Segment, row: usize) -> usize {
 }
 
 #[inline(always)]
-fn subtract<const W: usize, I: Isa<W>>(isa: I, entry: &mut [f64; W], value: I::F) {
+fn subtract<const W: usize, I: Isa<W>>(isa: I, entry: &mut [I::Number; W], value: I::F) {
     isa.store(isa.load(entry) - value, entry);
 }
 
@@ -146,9 +151,9 @@ fn subtract<const W: usize, I: Isa<W>>(isa: I, entry: &mut [f64; W], value: I::F
 fn substitute<const W: usize, I: Isa<W>, const H: usize>(
     isa: I,
     segment: &Segment,
-    factored: &[[f64; W]],
+    factored: &[[I::Number; W]],
     row: usize,
-    right: &mut [[f64; W]],
+    right: &mut [[I::Number; W]],
 ) {
     let mut sum = isa.load(&right[row]);
     for k in first_column::<H>(segment, row)..H {
@@ -168,10 +173,10 @@ pub(super) fn recover<
 >(
     isa: I,
     segment: &Segment,
-    band: &[[f64; W]],
-    border: &[[f64; W]],
-    right: &[[f64; W]],
-    solution: &mut [[f64; W]],
+    band: &[[I::Number; W]],
+    border: &[[I::Number; W]],
+    right: &[[I::Number; W]],
+    solution: &mut [[I::Number; W]],
 ) {
     let (rows, _) = band.as_chunks::<ROW>();
     let (border, _) = border.as_chunks::<K>();

@@ -1,7 +1,10 @@
-//! Errors against the platform's functions, and equal bits in one lane and in eight.
+//! Errors against the platform's functions, and equal bits in one lane and in many.
 
 use super::*;
-use crate::lanes::{Isa, WIDE, WideTask, run_wide};
+use crate::lanes::{
+    InstructionSet, Isa, Number, Scalar, ScalarSingle, Single, WIDE, WIDE_SINGLE, WideTask,
+    run_single_on, run_wide,
+};
 
 /// Distance in units of the last place of `exact`.
 fn ulp(value: f64, exact: f64) -> f64 {
@@ -108,15 +111,55 @@ fn all<F: Real>(x: F, y: F) -> [F; 7] {
     [ln(x), ln_ratio(x, y.abs()), atan(y), atan2(y, x), atan2(x, y), s, c]
 }
 
-struct Everything<'a>(&'a [[f64; WIDE]], &'a [[f64; WIDE]]);
-impl WideTask for Everything<'_> {
-    type Output = Vec<[[f64; WIDE]; 7]>;
-    fn run<I: Isa<WIDE>>(self, isa: I) -> Self::Output {
-        let run = |(x, y): (&[f64; WIDE], &[f64; WIDE])| {
+/// Distance in units of the last place of `exact` in single precision.
+fn ulp_single(value: Single<f32>, exact: f64) -> f64 {
+    let magnitude = (exact.abs() as f32).max(f32::MIN_POSITIVE);
+    let unit = f32::from_bits(magnitude.to_bits() + 1) - magnitude;
+    (f64::from(value.0) - exact).abs() / f64::from(unit)
+}
+
+#[test]
+fn single_precision_is_within_two_and_a_half_ulp() {
+    let (mut logarithm, mut arctangent, mut sine) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (u, w) in uniform(COUNT, 11).into_iter().zip(uniform(COUNT, 12)) {
+        let x = (60.0 * (u - 0.5)).exp() as f32;
+        logarithm = logarithm.max(ulp_single(ln(Single(x)), f64::from(x).ln()));
+        let angle = std::f64::consts::TAU * (w - 0.5);
+        let [y, z] = [angle.sin(), angle.cos()].map(|part| (f64::from(x) * part) as f32);
+        let exact = f64::from(y).atan2(f64::from(z));
+        arctangent = arctangent.max(ulp_single(atan2(Single(y), Single(z)), exact));
+        for turned in [8.0 * (u - 0.5), 60.0 * (w - 0.5)].map(|x| x as f32) {
+            let (s, c) = sin_cos(Single(turned));
+            let (exact_s, exact_c) = f64::from(turned).sin_cos();
+            sine = sine.max(ulp_single(s, exact_s)).max(ulp_single(c, exact_c));
+        }
+    }
+    println!("single: ln {logarithm:.2}, atan2 {arctangent:.2}, sin_cos {sine:.2} ulp");
+    assert!(logarithm <= 1.5 && arctangent <= 2.5 && sine <= 1.5);
+}
+
+#[test]
+fn logarithms_of_ratios_in_single_precision_are_within_three_roundings() {
+    let mut error = 0.0_f64;
+    for (p, q) in uniform(COUNT, 13).into_iter().zip(uniform(COUNT, 14)) {
+        let [p, q] = [p, q].map(|u| (40.0 * (u - 0.5)).exp() as f32);
+        let exact = (f64::from(p) / f64::from(q)).ln();
+        let found = f64::from(ln_ratio(Single(p), Single(q)).0);
+        error = error.max((found - exact).abs() / exact.abs().max(1.0));
+    }
+    println!("single: ln_ratio {error:.1e}");
+    assert!(error <= 1.8e-7);
+}
+
+struct Everything<'a, const W: usize, N>(&'a [[N; W]], &'a [[N; W]]);
+impl<const W: usize, N: Number> WideTask<W, N> for Everything<'_, W, N> {
+    type Output = Vec<[[N; W]; 7]>;
+    fn run<I: Isa<W, Number = N>>(self, isa: I) -> Self::Output {
+        let run = |(x, y): (&[N; W], &[N; W])| {
             isa.vectorize(
                 #[inline(always)]
                 || {
-                    let mut rows = [[0.0; WIDE]; 7];
+                    let mut rows = [[N::default(); W]; 7];
                     for (row, value) in rows.iter_mut().zip(all(isa.load(x), isa.load(y))) {
                         isa.store(value, row);
                     }
@@ -128,19 +171,40 @@ impl WideTask for Everything<'_> {
     }
 }
 
-#[test]
-fn eight_lanes_have_the_bits_of_one() {
-    let rows = |seed, f: fn(f64) -> f64| -> Vec<[f64; WIDE]> {
-        let samples: Vec<f64> = uniform(1 << 16, seed).into_iter().map(f).collect();
-        samples.chunks_exact(WIDE).map(|row| row.try_into().unwrap()).collect()
+/// Arguments of all functions, in rows of W lanes.
+fn arguments<const W: usize, N: Number>() -> [Vec<[N; W]>; 2] {
+    let rows = |seed, f: fn(f64) -> f64| -> Vec<[N; W]> {
+        let samples: Vec<N> = uniform(1 << 16, seed).into_iter().map(|u| N::of(f(u))).collect();
+        samples.chunks_exact(W).map(|row| row.try_into().unwrap()).collect()
     };
     let x = rows(9, |u| (60.0 * (u - 0.5)).exp());
     let y = rows(10, |u| (20.0 * (u - 0.65)).exp().copysign(u - 0.4).max(-900.0));
-    for (i, wide) in run_wide(Everything(&x, &y)).iter().enumerate() {
-        for lane in 0..WIDE {
-            for (row, scalar) in wide.iter().zip(all(x[i][lane], y[i][lane])) {
-                assert_eq!(row[lane].to_bits(), scalar.to_bits());
+    [x, y]
+}
+
+/// Each lane against one lane alone.
+fn lanes_equal_one<const W: usize, N: Number, I: Isa<1, Number = N>>(
+    isa: I,
+    [x, y]: &[Vec<[N; W]>; 2],
+    wide: &[[[N; W]; 7]],
+) {
+    for (i, wide) in wide.iter().enumerate() {
+        for lane in 0..W {
+            let alone = all(isa.load(&[x[i][lane]]), isa.load(&[y[i][lane]]));
+            for (row, value) in wide.iter().zip(alone) {
+                let mut one = [N::default()];
+                isa.store(value, &mut one);
+                assert_eq!(row[lane].f64().to_bits(), one[0].f64().to_bits());
             }
         }
     }
+}
+
+#[test]
+fn many_lanes_have_the_bits_of_one() {
+    let double = arguments::<WIDE, f64>();
+    lanes_equal_one(Scalar, &double, &run_wide(Everything(&double[0], &double[1])));
+    let single = arguments::<WIDE_SINGLE, f32>();
+    let task = Everything(&single[0], &single[1]);
+    lanes_equal_one(ScalarSingle, &single, &run_single_on(InstructionSet::widest(), task));
 }
