@@ -303,6 +303,15 @@ fn refuses_periods_that_are_not_whole() {
     ] {
         refuses("example", path, value, sentence);
     }
+    for (field, value) in [("solver.step_s", "4e-4"), ("solver.integrator", "\"explicit\"")] {
+        let single = [("solver.precision", Some("\"single\"")), (field, Some(value))];
+        let message = edited("example", &single).expect_err("too short a step").to_string();
+        assert_eq!(
+            message,
+            "solver.precision is \"single\"; allowed: \"double\" with explicit and with steps below 5e-4 s, which move \
+             less than single precision tells apart"
+        );
+    }
     let explicit = [("solver.integrator", Some("\"explicit\"")), ("solver.step_s", Some("1e-7"))];
     assert!(edited("example", &explicit).is_ok());
     assert!(edited("example", &[("solver.step_s", Some("0.0033333333333333335"))]).is_ok());

@@ -1,4 +1,4 @@
-//! Accuracy: one word that chooses step, mesh, wrench and integrator.
+//! Accuracy: one word that chooses step, mesh, wrench, integrator and precision.
 //!
 //! `solver.accuracy` is not part of a [`Scene`](super::Scene): it is replaced by the values it stands for as the scene is
 //! read, so that a scene always shows what it runs with. Their errors and costs are measured in
@@ -17,6 +17,7 @@ pub(super) const ACCURACIES: &[&str] = &["fast", "balanced", "reference"];
 /// What a word stands for.
 struct Level {
     name: &'static str,
+    precision: &'static str,
     /// Step in the plane and in space [s]: there feet jam more easily.
     step_s: [f64; 2],
     elements_per_bridge: i64,
@@ -27,6 +28,7 @@ struct Level {
 const LEVELS: [Level; 3] = [
     Level {
         name: ACCURACIES[0],
+        precision: "single",
         step_s: [5e-3, 2e-3],
         elements_per_bridge: 4,
         elements_per_foot_end: 1,
@@ -34,6 +36,7 @@ const LEVELS: [Level; 3] = [
     },
     Level {
         name: ACCURACIES[1],
+        precision: "double",
         step_s: [5e-4, 5e-4],
         elements_per_bridge: 8,
         elements_per_foot_end: 2,
@@ -41,6 +44,7 @@ const LEVELS: [Level; 3] = [
     },
     Level {
         name: ACCURACIES[2],
+        precision: "double",
         step_s: [1e-4, 1e-4],
         elements_per_bridge: 16,
         elements_per_foot_end: 4,
@@ -72,6 +76,7 @@ pub(super) fn expand(scene: &mut Table) -> Result<(), Problem> {
 /// Fields that a word writes; those of the body for worms alone.
 const CHOSEN: [(&str, &str); 7] = [
     ("solver", "integrator"),
+    ("solver", "precision"),
     ("solver", "step_s"),
     ("solver", "magnet_model"),
     ("solver", "quadrature_order"),
@@ -97,6 +102,7 @@ pub(super) fn choose(scene: &mut Table, word: &Value) -> Result<(), Problem> {
     let body = scene.get("body").and_then(|body| body.get("kind")).and_then(Value::as_str);
     let values = [
         Value::from("newmark"),
+        Value::from(level.precision),
         Value::from(level.step_s[usize::from(space)]),
         Value::from("cuboid"),
         Value::from(level.quadrature_order),

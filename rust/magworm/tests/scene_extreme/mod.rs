@@ -124,13 +124,20 @@ fn drive(dice: &mut Dice, motion: Motion) -> Drive {
 }
 
 fn solver(dice: &mut Dice) -> Solver {
+    let integrator = dice.one_of(&[Integrator::Newmark, Integrator::Euler, Integrator::Explicit]);
+    let step_s = dice.decades(1e-5, 0.05);
     Solver {
-        integrator: dice.one_of(&[Integrator::Newmark, Integrator::Euler, Integrator::Explicit]),
-        step_s: dice.decades(1e-5, 0.05),
+        integrator,
+        step_s,
         magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Cuboid, MagnetModel::Dipole]),
         quadrature_order: dice.whole(1, 3),
         wrench_interval: 1,
         contact_iterations: 120,
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
+        precision: if integrator == Integrator::Explicit || step_s < 5e-4 {
+            Precision::Double
+        } else {
+            dice.one_of(&[Precision::Double, Precision::Single])
+        },
     }
 }

@@ -145,17 +145,19 @@ fn start(dice: &mut Dice, on_ground: bool, dimensions: usize) -> Start {
 fn solver(dice: &mut Dice) -> Solver {
     let integrator = dice.one_of(&[Integrator::Newmark, Integrator::Euler, Integrator::Explicit]);
     let shortest_s = if integrator == Integrator::Explicit { 1e-7 } else { 1e-5 };
+    let step_s = dice.decades(shortest_s, 0.05);
     Solver {
         integrator,
-        step_s: dice.decades(shortest_s, 0.05),
+        step_s,
         magnet_model: dice.one_of(&[MagnetModel::Cuboid, MagnetModel::Dipole]),
         quadrature_order: dice.whole(1, 10),
         wrench_interval: 1,
         contact_iterations: dice.whole(1, 1000),
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
-        precision: match integrator {
-            Integrator::Explicit => Precision::Double,
-            _ => dice.one_of(&[Precision::Double, Precision::Single]),
+        precision: if integrator == Integrator::Explicit || step_s < 5e-4 {
+            Precision::Double
+        } else {
+            dice.one_of(&[Precision::Double, Precision::Single])
         },
     }
 }

@@ -7,6 +7,9 @@ use super::require;
 
 /// Shortest step of the implicit schemes [s]: below it the inertia swamps the elastic terms.
 const SHORTEST_IMPLICIT_STEP_S: f64 = 1e-5;
+/// Shortest step in single precision [s], which holds a place 1 m from the origin to within 60 nm: a foot at 1 mm/s
+/// moves 500 nm in it.
+const SHORTEST_SINGLE_STEP_S: f64 = 5e-4;
 /// Most steps that one period may hold; beyond it "a whole number" drowns in rounding.
 const MOST_STEPS: f64 = 1e8;
 /// Relative error of a ratio that still counts as whole.
@@ -28,17 +31,16 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     variations(scene)
 }
 
-/// Single precision holds a place 0.1 m from the origin to within 4 nm, and a robot at 1 mm/s goes 4 nm in 4 µs.
 fn precision(scene: &Scene) -> Result<(), Problem> {
-    let single = scene.solver.precision == Precision::Single;
-    require(
-        !single || scene.solver.integrator != Integrator::Explicit,
-        "solver.precision",
-        "\"single\"".into(),
-        || {
-            "\"double\" where solver.integrator is \"explicit\": single precision rounds away what its short steps move".into()
-        },
-    )
+    let Scene { solver, .. } = scene;
+    let single = solver.precision == Precision::Single;
+    let long = solver.integrator != Integrator::Explicit && solver.step_s >= SHORTEST_SINGLE_STEP_S;
+    require(!single || long, "solver.precision", "\"single\"".into(), || {
+        let shortest = quantity(SHORTEST_SINGLE_STEP_S, "s");
+        format!(
+            "\"double\" with explicit and with steps below {shortest}, which move less than single precision tells apart"
+        )
+    })
 }
 
 fn whole_number(field: &str, period_s: f64, part: &str, part_s: f64) -> Result<(), Problem> {
