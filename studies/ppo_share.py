@@ -82,23 +82,27 @@ class Replayed:
 
 @dataclass(frozen=True)
 class Case:
-    """A task and the solver's step [ms]."""
+    """A task, the solver's step [ms] and precision."""
 
     title: str
     task: str
     scene: str
     step_ms: float
+    precision: str = "double"
 
     @property
     def simulated(self) -> Scene:
-        """The scene with that step."""
-        return Scene.preset(self.scene).with_values({"solver.step_s": self.step_ms / 1e3})
+        """The scene with them."""
+        values = {"solver.step_s": self.step_ms / 1e3, "solver.precision": self.precision}
+        return Scene.preset(self.scene).with_values(values)
 
 
 CASES = (
     Case("Crawl-v0", "crawl", "paper-3", 2.0),
     Case("Crawl-v0", "crawl", "paper-3", 5.0),
+    Case("Crawl-v0", "crawl", "paper-3", 5.0, "single"),
     Case("Turn-v0", "turn", "turn-3", 2.0),
+    Case("Turn-v0", "turn", "turn-3", 2.0, "single"),
 )
 
 
@@ -165,7 +169,7 @@ def _around(case: Case) -> float:
 
 def table(shares: list[Share]) -> str:
     """A Markdown table."""
-    heads = ["task", "step", "steps/s of the training", "of the environment alone", "share of wall time"]
+    heads = ["task", "step", "precision", "steps/s of the training", "of the environment alone", "share of wall time"]
     heads += ["trainer's ceiling, steps/s", f"environment for a share of {100 * AIM:.0f} %, steps/s"]
     heads += ["Python around the simulator, µs"]
     lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --- |" * (len(heads) - 1)]
@@ -173,17 +177,17 @@ def table(shares: list[Share]) -> str:
         needed = found.ceiling * (1.0 - AIM) / AIM
         rates = f"{found.per_second:,.0f} | {found.environment:,.0f} | {100 * found.share:.0f} %"
         rest = f"{found.ceiling:,.0f} | {needed:,.0f} | {1e6 * found.python_s:.0f}"
-        lines.append(f"| {found.case.title} | {found.case.step_ms:g} ms | {rates} | {rest} |")
+        lines.append(f"| {found.case.title} | {found.case.step_ms:g} ms | {found.case.precision} | {rates} | {rest} |")
     return "\n".join(lines)
 
 
 def rows(shares: list[Share]) -> list[list[object]]:
     """The same as rows of data, with a first row of names."""
-    names: list[object] = ["task", "step_ms", "training_per_s", "environment_per_s", "share"]
+    names: list[object] = ["task", "step_ms", "precision", "training_per_s", "environment_per_s", "share"]
     table = [[*names, "ceiling_per_s", "python_us"]]
     for s in shares:
         rates = [round(s.per_second), round(s.environment), round(s.share, 4), round(s.ceiling)]
-        table.append([s.case.title, s.case.step_ms, *rates, round(1e6 * s.python_s)])
+        table.append([s.case.title, s.case.step_ms, s.case.precision, *rates, round(1e6 * s.python_s)])
     return table
 
 

@@ -1,8 +1,8 @@
 """Environment steps per second, beside the errors of the step they are taken with, in the plane and in space.
 
 Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
-(space), eight lanes and one, on all cores and on one, each the median of several runs after a warm-up, with
-what the contact solve took; and what passes of the drive give at several solver steps against steps of
+(space), in lanes and one by one, in double and single precision, on all cores and on one, each the median of
+several runs after a warm-up, with what the contact solve took; and what passes of the drive give at several solver steps against steps of
 0.05 ms: stride in the plane, stride and yaw in space, there also with friction that does not fall as a foot
 begins to slide. About five minutes.
 
@@ -30,21 +30,24 @@ CONTROL_STEPS = 50
 
 @dataclass(frozen=True)
 class Case:
-    """A way to run: kernel, threads (None: all cores), step of the solver [ms]."""
+    """A way to run: kernel, threads (None: all cores), step of the solver [ms], precision."""
 
     lanes: str
     threads: int | None
     step_ms: float
+    precision: str = "double"
 
     def name(self) -> str:
         """As the report calls it."""
-        lanes = "eight lanes" if self.lanes == "wide" else "one lane"
+        many = {"double": "eight", "single": "sixteen"}[self.precision]
+        lanes = f"{many} lanes" if self.lanes == "wide" else "one lane"
         cores = "all cores" if self.threads is None else f"{self.threads} core"
         return f"{lanes}, {cores}, {self.step_ms:g} ms"
 
     def measured(self, task: str, scene: str, repetitions: int) -> "Rates":
         """Runs a preset this way."""
-        changed = Scene.preset(scene).with_values({"solver.step_s": self.step_ms / 1e3})
+        values = {"solver.step_s": self.step_ms / 1e3, "solver.precision": self.precision}
+        changed = Scene.preset(scene).with_values(values)
         return measured(task, changed, repetitions, lanes=self.lanes, threads=self.threads)
 
 
@@ -54,6 +57,8 @@ CASES = (
     Case("scalar", None, 2.0),
     Case("wide", None, 5.0),
     Case("wide", None, 1.0),
+    Case("wide", None, 2.0, "single"),
+    Case("wide", None, 5.0, "single"),
 )
 
 

@@ -22,7 +22,7 @@ def with_word(word: object) -> Scene:
 def test_words_are_replaced_by_what_they_stand_for() -> None:
     text = with_word("fast").to_toml()
     assert "accuracy" not in text
-    assert settings_of("fast", "paper-3") == Settings(5.0, 4, 2)
+    assert settings_of("fast", "paper-3") == Settings(5.0, 4, 2, precision="single")
     assert settings_of("fast", "turn-3").step_ms < settings_of("fast", "paper-3").step_ms
 
 

@@ -49,6 +49,7 @@ def read_settings(scene: Scene) -> Settings:
         order=solver["quadrature_order"],
         integrator=solver["integrator"],
         interval=solver["wrench_interval"],
+        precision=solver["precision"],
     )
 
 

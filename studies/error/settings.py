@@ -1,4 +1,4 @@
-"""What is varied: integrator, step, mesh, wrench and how often it is computed."""
+"""What is varied: integrator, step, mesh, wrench, how long it acts, and precision."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +22,7 @@ class Settings:
         order: Order of the quadrature of the wrench; 0 takes dipoles.
         integrator: Scheme.
         interval: Steps for which a wrench acts.
+        precision: Of numbers: double or single.
     """
 
     step_ms: float
@@ -29,11 +30,13 @@ class Settings:
     order: int = 2
     integrator: str = "newmark"
     interval: int = 1
+    precision: str = "double"
 
     def changes(self, body: str) -> dict[str, Any]:
         """As values of a scene whose body is a worm or a rod."""
         values: dict[str, Any] = {
             "solver.integrator": self.integrator,
+            "solver.precision": self.precision,
             "solver.step_s": self.step_ms / MS,
         }
         if body == "rod":
@@ -51,6 +54,6 @@ class Settings:
         """In words."""
         wrench = f"order {self.order}" if self.order else "dipoles"
         held = f", a wrench for {self.interval} steps" if self.interval > 1 else ""
-        return (
-            f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms, {self.elements} elements, {wrench}{held}"
-        )
+        numbers = ", single" if self.precision == "single" else ""
+        scheme, mesh = f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms", f"{self.elements} elements"
+        return f"{scheme}, {mesh}, {wrench}{held}{numbers}"
