@@ -130,6 +130,8 @@ impl<F: Real> Point<F> {
         let grip = length::<F, D>(along);
         let slides = grip.gt(friction);
         let share = F::select(slides, friction / F::select(slides, grip, one), one);
+        // Where nothing presses nothing is held, also where the square of a tiny push is too small a number.
+        let share = F::select(friction.gt(zero), share, zero);
         let impulse = [normal, along[0] * share, along[1] * share];
         let pushed = direction::<F, D>(along);
         Impulse { impulse, closed: augmented.gt(zero), slides, share, pushed }
