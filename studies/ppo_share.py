@@ -169,7 +169,14 @@ def _around(case: Case) -> float:
 
 def table(shares: list[Share]) -> str:
     """A Markdown table."""
-    heads = ["task", "step", "precision", "steps/s of the training", "of the environment alone", "share of wall time"]
+    heads = [
+        "task",
+        "step",
+        "precision",
+        "steps/s of the training",
+        "of the environment alone",
+        "share of wall time",
+    ]
     heads += ["trainer's ceiling, steps/s", f"environment for a share of {100 * AIM:.0f} %, steps/s"]
     heads += ["Python around the simulator, µs"]
     lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --- |" * (len(heads) - 1)]
@@ -177,7 +184,9 @@ def table(shares: list[Share]) -> str:
         needed = found.ceiling * (1.0 - AIM) / AIM
         rates = f"{found.per_second:,.0f} | {found.environment:,.0f} | {100 * found.share:.0f} %"
         rest = f"{found.ceiling:,.0f} | {needed:,.0f} | {1e6 * found.python_s:.0f}"
-        lines.append(f"| {found.case.title} | {found.case.step_ms:g} ms | {found.case.precision} | {rates} | {rest} |")
+        lines.append(
+            f"| {found.case.title} | {found.case.step_ms:g} ms | {found.case.precision} | {rates} | {rest} |"
+        )
     return "\n".join(lines)
 
 

@@ -2,9 +2,9 @@
 
 Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
 (space), in lanes and one by one, in double and single precision, on all cores and on one, each the median of
-several runs after a warm-up, with what the contact solve took; and what passes of the drive give at several solver steps against steps of
-0.05 ms: stride in the plane, stride and yaw in space, there also with friction that does not fall as a foot
-begins to slide. About five minutes.
+several runs after a warm-up, with what the contact solve took; and what passes of the drive give at several
+solver steps against steps of 0.05 ms: stride in the plane, stride and yaw in space, there also with friction
+that does not fall as a foot begins to slide. About five minutes.
 
     python -m studies.throughput --out runs/bench/throughput.json
 """

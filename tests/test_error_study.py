@@ -79,7 +79,7 @@ def test_longer_steps_slide_too_far_by_half_a_step() -> None:
 
 def test_a_case_becomes_a_page() -> None:
     case = replace(incline(), front=[Settings(10.0, 8), Settings(5.0, 8)], axes=incline().axes[:1])
-    text = page([case], measure(case, 1), {}, [])
+    text = page([case], measure(case, 1), {}, [], [])
     assert case.title in text
     assert "On the front, by the error of the way" in text
     assert "Newmark, 5 ms, 8 elements" in text
@@ -110,4 +110,4 @@ def test_held_wrenches_are_older_and_fewer() -> None:
     said = held([one], rows)
     assert f"moves the pose by {along[1].error / 4.0:.3f} to" in said
     assert "by the stride 0 of 1 settings" in said
-    assert "Newmark, 2 ms, 4 elements, order 2, a wrench for 5 steps" in page([one], rows, {}, [])
+    assert "Newmark, 2 ms, 4 elements, order 2, a wrench for 5 steps" in page([one], rows, {}, [], [])

@@ -10,6 +10,7 @@ import csv
 from pathlib import Path
 
 from studies.error.cases import CASES
+from studies.error.distance import distances
 from studies.error.levels import TASKS, levels
 from studies.error.measured import Row, measure, read, write
 from studies.error.page import IMAGES, page
@@ -49,7 +50,7 @@ def main() -> None:
     words = {name: levels(CASES[name], arguments.repetitions) for name in TASKS}
     with PEERS.open(newline="", encoding="utf-8") as file:
         peers = list(csv.DictReader(file))
-    (DOCS / "performance.md").write_text(page(shown, rows, words, peers), encoding="utf-8")
+    (DOCS / "performance.md").write_text(page(shown, rows, words, peers, distances()), encoding="utf-8")
     print(f"{DOCS / 'performance.md'}")
 
 

@@ -23,6 +23,9 @@ EXPLICIT_MS = (0.02, 0.01, 0.005)
 MESHES = (2, 4, 8, 12)
 ORDERS = (0, 1, 2, 3)
 INTERVALS = (1, 2, 5, 10)
+PRECISIONS = ("double", "single")
+SINGLE_MS = (10.0, 5.0, 2.0, 1.0, 0.5)
+"""Steps of the front in single precision [ms]."""
 HELD = ((5.0, 2), (2.0, 2), (1.0, 2), (0.5, 2), (0.5, 5))
 """Steps [ms] of the front where wrenches act for several steps too, and for how many."""
 ROD_STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
@@ -38,6 +41,10 @@ PLANE_AXES = (
 INTERVAL_AXES = tuple(
     Axis("interval", [Settings(step, interval=held) for held in INTERVALS], Settings(step), costs=True)
     for step in (2.0, 0.5)
+)
+PRECISION_AXES = tuple(
+    Axis("precision", [Settings(step, precision=one) for one in PRECISIONS], Settings(step), costs=True)
+    for step in (5.0, 2.0, 1.0, 0.5)
 )
 PLANE_GRID = [Settings(step, mesh) for mesh in MESHES for step in STEPS_MS]
 PLANE_REFERENCE, PLANE_CHECK = Settings(0.1, 16, 4), Settings(0.2, 12, 3)
@@ -66,12 +73,13 @@ def crawl() -> Case:
         duration_s=PASS_S,
         sample_s=0.02,
         read=read_crawl,
-        axes=(*PLANE_AXES, *INTERVAL_AXES),
+        axes=(*PLANE_AXES, *INTERVAL_AXES, *PRECISION_AXES),
         front=[
             *PLANE_GRID,
             *(Settings(step, 4, 1) for step in (5.0, 2.0)),
             *(Settings(step, 4, integrator="euler") for step in EULER_MS),
             *(Settings(step, mesh, interval=held) for mesh in MESHES for step, held in HELD),
+            *(Settings(step, mesh, precision="single") for mesh in MESHES for step in SINGLE_MS),
         ],
         reference=PLANE_REFERENCE,
         check=PLANE_CHECK,
@@ -216,10 +224,12 @@ def turn() -> Case:
             Axis("elements", [Settings(0.5, mesh) for mesh in meshes], Settings(0.5, 12)),
             Axis("order", [Settings(2.0, order=order) for order in ORDERS], Settings(2.0, order=5)),
             *INTERVAL_AXES,
+            *PRECISION_AXES,
         ),
         front=[
             *(Settings(step, mesh) for mesh in meshes for step in steps),
             *(Settings(step, mesh, interval=held) for mesh in meshes for step, held in HELD),
+            *(Settings(step, mesh, precision="single") for mesh in meshes for step in steps),
         ],
         reference=Settings(0.2, 12, 3),
         check=Settings(0.5, 8, 3),

@@ -1,9 +1,6 @@
 """What single precision does far from the origin, where places are rounded more."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from magworm_gym import Scene, record_scenes
 from studies.error.cases import HEIGHTS_MM, MM, PASS_S, SPEED_M_S, read_crawl
@@ -59,8 +56,3 @@ def distances() -> list[Distance]:
                 raise RuntimeError(f"a pass at {place_m} m broke down")
             found.append(Distance(step_ms, place_m, off))
     return found
-
-
-def greatest(found: Sequence[Distance], within_m: float) -> float:
-    """Greatest error of the mean stride up to a distance."""
-    return float(np.max([abs(one.errors.figures["stride"].mean) for one in found if one.place_m <= within_m]))

@@ -37,7 +37,7 @@ class Row:
 
 
 COLUMNS = (
-    *("case", "part", "integrator", "step_ms", "elements", "order", "interval", "figure"),
+    *("case", "part", "integrator", "step_ms", "elements", "order", "interval", "precision", "figure"),
     *("error", "uncertainty", "median", "wall_s", "steps", "systems", "trials", "wrenches"),
 )
 
@@ -83,7 +83,8 @@ def write(rows: Sequence[Row], path: Path) -> None:
         for row in rows:
             s, w = row.settings, row.work
             costs = [] if w is None else [w.wall_s, w.steps, w.systems, w.trials, w.wrenches]
-            head = [row.case, row.part, s.integrator, s.step_ms, s.elements, s.order, s.interval, row.figure]
+            of = [s.integrator, s.step_ms, s.elements, s.order, s.interval, s.precision]
+            head = [row.case, row.part, *of, row.figure]
             numbers = [row.error, row.uncertainty, row.median, *costs]
             writer.writerow([*head, *(f"{number:.4g}" for number in numbers)])
 
@@ -101,6 +102,7 @@ def _row(values: Mapping[str, str]) -> Row:
         int(values["order"]),
         values["integrator"],
         int(values["interval"]),
+        values["precision"],
     )
     costs = [values[name] for name in ("wall_s", "steps", "systems", "trials", "wrenches")]
     return Row(

@@ -18,6 +18,7 @@ LABELS = {
     "elements": "elements",
     "order": "order of the quadrature, 0: dipoles",
     "interval": "steps of a wrench",
+    "precision": "step [ms]",
 }
 PERCENT = 100.0
 
@@ -40,13 +41,16 @@ def value_on(axis: str, row: Row) -> float:
         "elements": settings.elements,
         "order": settings.order,
         "interval": settings.interval,
+        "precision": settings.step_ms,
     }
     return values[axis]
 
 
 def line_of(axis: str, row: Row) -> str:
     """What sets the lines of a figure apart on an axis."""
-    return f"{row.settings.step_ms:g} ms" if axis == "interval" else INTEGRATORS[row.settings.integrator]
+    settings = row.settings
+    words = {"interval": f"{settings.step_ms:g} ms", "precision": f"{settings.precision} precision"}
+    return words.get(axis, INTEGRATORS[settings.integrator])
 
 
 def draw_case(case: Case, rows: Sequence[Row], path: Path) -> None:
@@ -87,19 +91,25 @@ def _draw_axis(name: str, rows: Sequence[Row], panel: Any) -> None:
     _finish(panel)
 
 
+def kind_of(row: Row) -> tuple[bool, bool, int]:
+    """What sets the points of a front apart: single precision, held wrenches, the mesh."""
+    settings = row.settings
+    return settings.precision == "single", settings.interval > 1, settings.elements
+
+
 def _draw_front(ranked: str, rows: Sequence[Row], panel: Any) -> None:
     first = ranked or rows[0].figure
     shown = [row for row in rows if row.figure == first and row.work is not None]
     meshes = sorted({row.settings.elements for row in shown})
-    for held, mesh in sorted({(row.settings.interval > 1, row.settings.elements) for row in shown}):
-        points = [row for row in shown if (row.settings.interval > 1, row.settings.elements) == (held, mesh)]
+    for single, held, mesh in sorted({kind_of(row) for row in shown}):
+        points = [row for row in shown if kind_of(row) == (single, held, mesh)]
         panel.plot(
             [1.0 / cost_s(row) for row in points],
             [scale(first) * size(row) for row in points],
-            "o",
+            "s" if single else "o",
             color=COLOURS[meshes.index(mesh) % len(COLOURS)],
             markerfacecolor="none" if held else None,
-            label=None if held else f"{mesh} elements",
+            label=None if held or single else f"{mesh} elements",
         )
     best = pareto(shown)
     panel.plot(

@@ -11,6 +11,7 @@ from studies.error.case import Case
 from studies.error.settings import Settings
 
 ENVIRONMENTS = 32
+LANES = {"double": 8, "single": 16}
 SPREAD = 0.02
 """Stiffness differs by this part at most between the environments, so that lanes do not do the same."""
 
@@ -20,9 +21,10 @@ class Work:
     """Of one simulated robot-second.
 
     Attributes:
-        wall_s: Wall time on one core [s], eight environments in the lanes of a vector.
+        wall_s: Wall time on one core [s], eight environments in the lanes of a vector, sixteen in single
+            precision.
         steps: Solver steps.
-        systems: Linear systems, each of eight lanes at once, per step of a block.
+        systems: Linear systems, each of all lanes at once, per step of a block.
         trials: Trials of the contact solve, likewise.
         wrenches: Wrenches of a drive magnet on a body magnet.
     """
@@ -54,5 +56,5 @@ def work(case: Case, settings: Settings, repetitions: int) -> Work:
         steps=1e3 / settings.step_ms,
         systems=counters["factorisations"] / counters["steps"],
         trials=counters["trials"] / counters["steps"],
-        wrenches=8 * counters["wrenches"] / (repetitions * robot_s),
+        wrenches=LANES[settings.precision] * counters["wrenches"] / (repetitions * robot_s),
     )

@@ -74,7 +74,7 @@ pub(super) fn expand(scene: &mut Table) -> Result<(), Problem> {
 }
 
 /// Fields that a word writes; those of the body for worms alone.
-const CHOSEN: [(&str, &str); 7] = [
+const CHOSEN: [(&str, &str); 8] = [
     ("solver", "integrator"),
     ("solver", "precision"),
     ("solver", "step_s"),
@@ -180,18 +180,7 @@ mod tests {
     #[test]
     fn a_file_may_leave_the_rest_out() {
         let text = Scene::preset("paper-3").expect("a preset").to_toml();
-<<<<<<< HEAD
         let chosen: Vec<&str> = CHOSEN.iter().map(|(_, field)| *field).collect();
-=======
-        let chosen = [
-            "integrator",
-            "precision",
-            "step_s",
-            "magnet_model",
-            "quadrature_order",
-            "elements_per_",
-        ];
->>>>>>> 8298133 (Contact: a point in the air holds nothing, however tiny the numbers)
         let mut in_solver_or_body = false;
         let mut kept = String::new();
         for line in text.lines() {
