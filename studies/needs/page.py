@@ -41,8 +41,9 @@ def page(
     parts = [
         INTRODUCTION,
         "## Counts\n\nPer solver step of eight robots, per wrench of eight lanes, per control step of eight\n"
-        "environments; `scalar` is one robot in plain `f64`.\n",
+        "environments; `scalar` is one robot in plain `f64`, `single` sixteen robots in single precision.\n",
         table(["task", "instructions"], [[f"`{name}`", f"{value:,.0f}"] for name, value in counts.items()]),
+        _single(counts),
         _shares(of_phases),
         _effects(counts, of_phases),
         _air(counts, of_phases),
@@ -51,6 +52,16 @@ def page(
         _held(of_phases),
     ]
     return "\n".join(parts) + "\n"
+
+
+def _single(counts: Counts) -> str:
+    shares = [counts[f"step-{side}-single"] / (2.0 * counts[f"step-{side}"]) for side in SIDES]
+    plane, space = (f"{100 * share:.0f}%" for share in shares)
+    return (
+        f"In single precision a robot takes {plane} of the instructions of double precision in the plane\n"
+        f"and {space} in space: a vector holds twice as many robots, and the block goes on until the slowest of\n"
+        "sixteen is done instead of eight.\n"
+    )
 
 
 def _shares(of_phases: Mapping[str, Counts]) -> str:
