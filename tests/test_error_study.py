@@ -11,6 +11,7 @@ from studies.error.cases import CASES, crawl, incline
 from studies.error.errors import errors, figure_error, pose_error_mm
 from studies.error.front import pareto, size
 from studies.error.held import age_ms, held
+from studies.error.magnets import magnets
 from studies.error.measured import Row, measure, read, write
 from studies.error.page import page, percent
 from studies.error.settings import Settings
@@ -83,6 +84,14 @@ def test_a_case_becomes_a_page() -> None:
     assert case.title in text
     assert "On the front, by the error of the way" in text
     assert "Newmark, 5 ms, 8 elements" in text
+
+
+def test_a_rod_with_magnets_is_run_with_the_wrench_of_its_settings() -> None:
+    case = magnets()
+    cuboids, dipoles = (case.run(Settings(4.0, 18, order)) for order in (2, 0))
+    found = errors(dipoles, cuboids, {})
+    assert found is not None
+    assert abs(found.figures["height"].mean) > 0.05
 
 
 def test_every_case_has_settings_that_differ() -> None:

@@ -1,4 +1,4 @@
-"""The cases: a pass of the drive in the plane and in space, the lift, a falling cantilever, an incline."""
+"""The cases: a pass of the drive in the plane and in space, the lift, two cantilevers, an incline."""
 
 import math
 from collections.abc import Sequence
@@ -7,6 +7,7 @@ import numpy as np
 
 from magworm_gym import Recording, Scene
 from studies.error.case import Axis, Case, Outcome
+from studies.error.magnets import magnets
 from studies.error.settings import Settings
 from studies.paper.lift import HOLD_S, LOW_M, RISE_S, middle_lift
 from studies.paper.scenes import AHEAD_M, PLANE_M, under_middle
@@ -246,4 +247,4 @@ def read_turn(records: Sequence[Recording]) -> Outcome:
     return Outcome(figures, tracks(records, 3))
 
 
-CASES = {case.name: case for case in (crawl(), turn(), lift(), cantilever(), incline())}
+CASES = {case.name: case for case in (crawl(), turn(), lift(), cantilever(), magnets(), incline())}

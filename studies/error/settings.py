@@ -39,13 +39,13 @@ class Settings:
             "solver.precision": self.precision,
             "solver.step_s": self.step_ms / MS,
         }
-        if body == "rod":
-            return values | {"body.elements": self.elements}
         if self.order:
             values["solver.quadrature_order"] = self.order
         else:
             values["solver.magnet_model"] = "dipole"
         values["solver.wrench_interval"] = self.interval
+        if body == "rod":
+            return values | {"body.elements": self.elements}
         values["body.elements_per_bridge"] = self.elements
         values["body.elements_per_foot_end"] = max(1, self.elements // 4)
         return values

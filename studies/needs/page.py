@@ -59,8 +59,8 @@ def _single(counts: Counts) -> str:
     plane, space = (f"{100 * share:.0f}%" for share in shares)
     return (
         f"In single precision a robot takes {plane} of the instructions of double precision in the plane\n"
-        f"and {space} in space: a vector holds twice as many robots, and the block goes on until the slowest of\n"
-        "sixteen is done instead of eight.\n"
+        f"and {space} in space: a vector holds twice as many robots, and the block goes on until the\n"
+        "slowest of sixteen is done instead of eight.\n"
     )
 
 

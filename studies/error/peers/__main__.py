@@ -1,4 +1,4 @@
-"""Runs the peers that are installed on the falling cantilever, prints a table and may write it.
+"""Runs the peers that are installed on the cantilevers, prints tables and may write one.
 
 python -m studies.error.peers --out studies/error/peers.csv    # minutes; needs the extra `rivals`
 """

@@ -5,6 +5,9 @@ That of the preset `cantilever` without its damping. It bends about its weak axi
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 LENGTH_M = 0.054
 WIDTH_M = 0.010
 THICKNESS_M = 0.004
@@ -21,6 +24,8 @@ TIP_MM = (52.708, -11.759)
 AREA_M2 = WIDTH_M * THICKNESS_M
 WEAK_M4 = WIDTH_M * THICKNESS_M**3 / 12.0
 STRONG_M4 = THICKNESS_M * WIDTH_M**3 / 12.0
+SHEAR_FACTOR = 5.0 / 6.0
+"""Of a rectangle."""
 SOUND_M_S = math.sqrt(YOUNGS_MODULUS_PA / DENSITY_KG_M3)
 """Speed of a wave along the rod."""
 
@@ -36,6 +41,6 @@ def half_cell_length_m(elements: int) -> float:
     return LENGTH_M / (elements - 0.5)
 
 
-def apart(tip_mm: tuple[float, float], other_mm: tuple[float, float]) -> float:
-    """Distance of two tips [mm], over the length."""
-    return math.dist(tip_mm, other_mm) / (MM * LENGTH_M)
+def tip_only(x_mm: float, y_mm: float) -> NDArray[np.float64]:
+    """A tip after a second as a track of one instant and one point (1, 1, 2) [mm]."""
+    return np.array([[[x_mm, y_mm]]])

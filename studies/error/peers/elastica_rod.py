@@ -21,6 +21,7 @@ from studies.error.peers.cantilever import (
     DURATION_S,
     GRAVITY_M_S2,
     MM,
+    SHEAR_FACTOR,
     SHEAR_MODULUS_PA,
     SOUND_M_S,
     STRONG_M4,
@@ -28,28 +29,23 @@ from studies.error.peers.cantilever import (
     WEAK_M4,
     YOUNGS_MODULUS_PA,
     half_cell_length_m,
+    tip_only,
 )
-from studies.error.peers.measure import Measured, Tip, finest, measured
+from studies.error.peers.measure import Series, Track, finest, measured
 
 MESHES = (9, 18, 27, 54)
 FINEST = 80
 """With 108 the rod, which has no damper, broke up within the second at every step tried."""
-SHEAR_FACTOR = 5.0 / 6.0
-"""Of a rectangle."""
 
 
 class Rods(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[misc]
     """What the rod, its clamp and its weight are put into."""
 
 
-def runs() -> dict[str, list[Measured]]:
-    """By scheme."""
-    return {"position Verlet": measured(released, {elements: limit_s(elements) for elements in MESHES})}
-
-
-def finest_tip_mm() -> Tip:
-    """Tip of a finer mesh, what the others are converging to [mm]."""
-    return finest(released, FINEST, limit_s(FINEST))
+def series() -> list[Series]:
+    """The one scheme."""
+    runs = measured(released, {elements: limit_s(elements) for elements in MESHES})
+    return [Series("position Verlet", runs, finest(released, FINEST, limit_s(FINEST)))]
 
 
 def limit_s(elements: int) -> float:
@@ -60,7 +56,7 @@ def limit_s(elements: int) -> float:
     return 2.0 / math.hypot(stretching, shearing)
 
 
-def released(elements: int, step_s: float) -> Callable[[], Tip]:
+def released(elements: int, step_s: float) -> Callable[[], Track]:
     """The rod at rest, and what runs it."""
     rod = rectangular_rod(elements)
     rods = Rods()
@@ -72,12 +68,12 @@ def released(elements: int, step_s: float) -> Callable[[], Tip]:
     rods.finalize()
     stepper, step = elastica.PositionVerlet(), np.float64(step_s)
 
-    def run() -> Tip:
+    def run() -> Track:
         time_s = np.float64(0.0)
         for _ in range(round(DURATION_S / step_s)):
             time_s = stepper.step(rods, time_s, step)
         x, y, _ = MM * rod.position_collection[:, -1]
-        return float(x), float(y)
+        return tip_only(x, y)
 
     return run
 

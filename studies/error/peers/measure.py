@@ -3,15 +3,19 @@
 import math
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
+from numpy.typing import NDArray
+
 from studies.error.peers.cantilever import DURATION_S, LENGTH_M, MM
 
-Tip = tuple[float, float]
-Release = Callable[[int, float], Callable[[], Tip]]
-"""Of a number of elements and a step [s]: builds the rod, and returns what runs it and gives its tip [mm]."""
+Track = NDArray[np.float64]
+"""Places of what is followed, along and up, shape (instants, points, 2) [mm]."""
+Release = Callable[[int, float], Callable[[], Track]]
+"""Of a number of elements and a step [s]: builds the rod, and returns what runs it for a second."""
 
 REFINEMENTS = (1, 2)
 REPETITIONS = 3
@@ -19,18 +23,39 @@ LONGER = 1.1
 """Factor between two steps that are tried."""
 MOST_TRIALS = 60
 FARTHEST_MM = 2.0 * MM * LENGTH_M
-SAME_MM = 0.02 * MM * LENGTH_M
-"""Beyond its limit an explicit step is wrong by lengths; within it, halving it changes little."""
+SAME = 0.02
+"""Beyond its limit an explicit step is wrong by lengths; within it, halving it changes less of the length."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A run: elements, step [s], tip [mm] and median wall time [s]."""
+    """A run: elements, step [s], what it gave [mm] and median wall time [s]."""
 
     elements: int
     step_s: float
-    tip_mm: Tip
+    track_mm: Track
     wall_s: float
+
+
+@dataclass(frozen=True)
+class Series:
+    """Runs that differ in mesh and step.
+
+    Attributes:
+        scheme: What they have in common.
+        runs: Of all meshes.
+        finest_mm: What a mesh finer than theirs gives [mm].
+    """
+
+    scheme: str
+    runs: Sequence[Measured]
+    finest_mm: Track
+
+
+def apart(track_mm: Track, other_mm: Track) -> float:
+    """Root mean square distance over points and instants, over the length."""
+    squared = np.sum((track_mm - other_mm) ** 2, axis=-1)
+    return float(np.sqrt(squared.mean())) / (MM * LENGTH_M)
 
 
 def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
@@ -43,48 +68,66 @@ def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
     """
     runs = []
     for elements, limit_s in meshes.items():
-        fewest = fewest_steps(partial(tip, release, elements), math.ceil(DURATION_S / limit_s))
+        longest_s = longest_step_s(release, elements, limit_s)
         for refinement in REFINEMENTS:
-            step_s = DURATION_S / (refinement * fewest)
+            step_s = longest_s / refinement
             runs.append(Measured(elements, step_s, *timed(release, elements, step_s)))
     return runs
 
 
-def finest(release: Release, elements: int, limit_s: float) -> Tip:
-    """Tip of a mesh at half its longest step [mm], untimed."""
-    return tip(release, elements, math.ceil(2.0 * DURATION_S / limit_s))
+def longest_step_s(
+    release: Release, elements: int, limit_s: float, instants: int = 1, same: float = SAME
+) -> float:
+    """The largest stable step [s], within a tenth.
+
+    Args:
+        release: Of the peer.
+        elements: Of the mesh.
+        limit_s: A step hardly longer than it allows [s].
+        instants: At which the run is looked at; its steps are a multiple of them.
+        same: How little, over the length, halving it may change.
+    """
+    first = math.ceil(DURATION_S / limit_s)
+    return DURATION_S / fewest_steps(partial(track, release, elements), first, instants, same)
 
 
-def tip(release: Release, elements: int, steps: int) -> Tip:
-    """Tip [mm] after the second in so many steps."""
+def finest(release: Release, elements: int, limit_s: float, instants: int = 1) -> Track:
+    """What a mesh gives at half its longest step, untimed."""
+    return track(release, elements, instants * math.ceil(2.0 * DURATION_S / (limit_s * instants)))
+
+
+def track(release: Release, elements: int, steps: int) -> Track:
+    """What the second gives in so many steps."""
     return release(elements, DURATION_S / steps)()
 
 
-def fewest_steps(tip_mm: Callable[[int], Tip], first: int) -> int:
+def fewest_steps(track_mm: Callable[[int], Track], first: int, instants: int = 1, same: float = SAME) -> int:
     """The fewest steps that are stable, within a tenth.
 
     Args:
-        tip_mm: Tip after so many steps.
+        track_mm: What so many steps give.
         first: Steps to begin with.
+        instants: Which divide the steps.
+        same: How little, over the length, twice as many may change.
 
     Raises:
         RuntimeError: Nothing is stable within 300 times as many.
     """
-    steps = first
+    steps = instants * math.ceil(first / instants)
     for _ in range(MOST_TRIALS):
-        found = tip_mm(steps)
-        if math.hypot(*found) < FARTHEST_MM and math.dist(found, tip_mm(2 * steps)) < SAME_MM:
+        found = track_mm(steps)
+        if np.abs(found).max() < FARTHEST_MM and apart(found, track_mm(2 * steps)) < same:
             return steps
-        steps = math.ceil(LONGER * steps)
+        steps = instants * math.ceil(LONGER * steps / instants)
     raise RuntimeError(f"no step is stable: tried {first} to {steps} steps a second")
 
 
-def timed(release: Release, elements: int, step_s: float) -> tuple[Tip, float]:
-    """Tip [mm], and the median wall time of the steps alone [s]. The search for the step has warmed up."""
+def timed(release: Release, elements: int, step_s: float) -> tuple[Track, float]:
+    """What a run gives, and the median wall time of its steps [s]. The search for the step has warmed up."""
     walls = []
     for _ in range(REPETITIONS):
         run = release(elements, step_s)
         start = time.perf_counter()
-        tip_mm = run()
+        track_mm = run()
         walls.append(time.perf_counter() - start)
-    return tip_mm, statistics.median(walls)
+    return track_mm, statistics.median(walls)

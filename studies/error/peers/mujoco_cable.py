@@ -24,8 +24,9 @@ from studies.error.peers.cantilever import (
     WIDTH_M,
     YOUNGS_MODULUS_PA,
     half_cell_length_m,
+    tip_only,
 )
-from studies.error.peers.measure import Measured, Tip, finest, measured
+from studies.error.peers.measure import Series, Track, finest, measured
 
 MESHES = (9, 18, 27)
 FINEST = 54
@@ -53,20 +54,18 @@ CABLE = """
 """
 
 
-def runs() -> dict[str, list[Measured]]:
-    """By scheme."""
+def series() -> list[Series]:
+    """One of each scheme."""
     mujoco.set_mju_user_warning(lambda _: None)  # steps too long are tried on purpose
-    return {
-        scheme: measured(
-            partial(released, scheme), {elements: limit_s(elements, scheme) for elements in MESHES}
+    finest_mm = finest(partial(released, "RK4"), FINEST, limit_s(FINEST, "RK4"))
+    return [
+        Series(
+            scheme,
+            measured(partial(released, scheme), {elements: limit_s(elements, scheme) for elements in MESHES}),
+            finest_mm,
         )
         for scheme in LIMITS
-    }
-
-
-def finest_tip_mm() -> Tip:
-    """Tip of a finer mesh, what the others are converging to [mm]."""
-    return finest(partial(released, "RK4"), FINEST, limit_s(FINEST, "RK4"))
+    ]
 
 
 def limit_s(elements: int, scheme: str) -> float:
@@ -97,16 +96,16 @@ def cable(elements: int, step_s: float, scheme: str) -> str:
     )
 
 
-def released(scheme: str, elements: int, step_s: float) -> Callable[[], Tip]:
+def released(scheme: str, elements: int, step_s: float) -> Callable[[], Track]:
     """The cable at rest, and what runs it."""
     model = mujoco.MjModel.from_xml_string(cable(elements, step_s, scheme))
     data = mujoco.MjData(model)
 
-    def run() -> Tip:
+    def run() -> Track:
         mujoco.mj_step(model, data, round(DURATION_S / step_s))
         mujoco.mj_kinematics(model, data)
         along = data.geom_xmat[-1].reshape(3, 3)[:, 0]
         x, y, _ = MM * (data.geom_xpos[-1] + model.geom_size[-1, 0] * along)
-        return float(x), float(y)
+        return tip_only(x, y)
 
     return run

@@ -6,7 +6,18 @@ from io import StringIO
 
 from studies.error.peers.runs import PeerRun
 
-COLUMNS = ("name", "version", "elements", "step_s", "tip_x_mm", "tip_y_mm", "error", "own_error", "wall_s")
+COLUMNS = (
+    "case",
+    "name",
+    "version",
+    "elements",
+    "step_s",
+    "tip_x_mm",
+    "tip_y_mm",
+    "error",
+    "own_error",
+    "wall_s",
+)
 
 
 def peers_csv(runs: Sequence[PeerRun]) -> str:
@@ -20,7 +31,15 @@ def row(run: PeerRun) -> list[str]:
     """In the order of the columns."""
     x_mm, y_mm = run.tip_mm
     places = [f"{x_mm:.4f}", f"{y_mm:.4f}", f"{run.error:.5f}", f"{run.own_error:.5f}"]
-    return [run.name, run.version, str(run.elements), f"{run.step_s:.4g}", *places, f"{run.wall_s:.3g}"]
+    return [
+        run.case,
+        run.name,
+        run.version,
+        str(run.elements),
+        f"{run.step_s:.4g}",
+        *places,
+        f"{run.wall_s:.3g}",
+    ]
 
 
 def peers_text(runs: Sequence[PeerRun]) -> str:

@@ -1,0 +1,185 @@
+"""PyElastica with magpylib: a Cosserat rod with magnets, stepped by position Verlet.
+
+Clamped as the rod without magnets is, and without a damper. With wrenches at every step almost all time is
+magpylib's, so they are also computed more seldom, with a line through the last two between.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import elastica
+import numpy as np
+
+from studies.error.magnets import DURATION_S, HIGH_M, LOW_M, PLACES_M, RISE_S, SAMPLE_S
+from studies.error.peers.cantilever import AREA_M2, DENSITY_KG_M3, MM, SHEAR_MODULUS_PA, YOUNGS_MODULUS_PA
+from studies.error.peers.elastica_rod import set_diagonals
+from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, MagnetRod, Stiffening, magnet_rod, mesh
+from studies.error.peers.magpylib_wrench import DriveMagnet, Extrapolated
+from studies.error.peers.measure import Measured, Series, Track, finest, longest_step_s, timed
+
+INSTANTS = round(DURATION_S / SAMPLE_S)
+SEARCHED = 10
+"""Steps from one computation of the wrenches to the next while the longest step, the rod's, is looked for."""
+SAME = 0.002
+"""Part of the length that halving the step may change: where hardly stable, a rod still shivers visibly."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is run of a rod.
+
+    Attributes:
+        stiffening: The rod.
+        limits_s: For each mesh a step hardly longer than it allows [s].
+        finest: A finer mesh, with such a step [s].
+        every: Steps from one computation of the wrenches to the next, and on which meshes.
+    """
+
+    stiffening: Stiffening
+    limits_s: Mapping[int, float]
+    finest: tuple[int, float]
+    every: Mapping[int, Sequence[int]]
+
+
+PLANS = (
+    Plan(
+        AS_IT_IS,
+        limits_s={18: 1.8e-4, 27: 1.8e-4, 54: 1.1e-4},
+        finest=(81, 6e-5),
+        every={1: (18,), 10: (18, 27, 54), 40: (18, 27, 54)},
+    ),
+    Plan(HARDLY_SHEARS, limits_s={18: 1.3e-4, 27: 1e-4}, finest=(54, 6e-5), every={20: (18, 27)}),
+)
+
+
+class Rods(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[misc]
+    """What the rod, its clamp and its magnets are put into."""
+
+
+class Magnets(elastica.NoForces):  # type: ignore[misc]
+    """The drive's wrenches: forces on the nodes at the middles of magnets, torques on their elements."""
+
+    def __init__(self, middles: Any, every: int) -> None:
+        super().__init__()
+        self.middles = middles
+        self.wrenches = Extrapolated(every, self.computed)
+        self.drive_magnet = DriveMagnet()
+        self.now = np.zeros((len(middles), 3))
+
+    def computed(self, rod: Any, time_s: float) -> Any:
+        """Wrenches (M, 3) at this moment."""
+        down = (
+            rod.director_collection[1, :, self.middles - 1] + rod.director_collection[1, :, self.middles]
+        ).T
+        angles = np.arctan2(down[0], -down[1])
+        return self.drive_magnet.wrenches(drive_m(time_s), rod.position_collection[:, self.middles].T, angles)
+
+    def apply_forces(self, system: Any, time: float = 0.0) -> None:
+        """PyElastica calls this first."""
+        self.now = self.wrenches(system, time)
+        system.external_forces[:2, self.middles] += self.now[:, :2].T
+
+    def apply_torques(self, system: Any, time: float = 0.0) -> None:
+        """And this next; torques are about the elements' own axes, the first of which is z."""
+        halves = 0.5 * self.now[:, 2]
+        system.external_torques[0, self.middles - 1] += halves
+        system.external_torques[0, self.middles] += halves
+
+
+def series() -> list[Series]:
+    """One for each rod and each number of steps between wrenches."""
+    return [one for plan in PLANS for one in planned(plan)]
+
+
+def planned(plan: Plan) -> list[Series]:
+    """Those of one rod. The search for the longest step warms up."""
+    searched = partial(released, plan.stiffening, SEARCHED)
+    steps_s = {
+        elements: longest_step_s(searched, elements, limit_s, INSTANTS, SAME)
+        for elements, limit_s in plan.limits_s.items()
+    }
+    finest_mm = finest(searched, *plan.finest, INSTANTS)
+    return [
+        Series(
+            words(plan.stiffening, every),
+            [run_of(plan.stiffening, every, elements, steps_s[elements]) for elements in meshes],
+            finest_mm,
+        )
+        for every, meshes in plan.every.items()
+    ]
+
+
+def run_of(stiffening: Stiffening, every: int, elements: int, step_s: float) -> Measured:
+    """A run, with the number of elements that it has with magnets."""
+    track_mm, wall_s = timed(partial(released, stiffening, every), elements, step_s)
+    return Measured(len(mesh(elements)[0]), step_s, track_mm, wall_s)
+
+
+def words(stiffening: Stiffening, every: int) -> str:
+    """What is varied."""
+    shear = f"shear × {stiffening.shear:g}, " if stiffening.shear != 1.0 else ""
+    return f"{shear}wrench every {f'{every} steps' if every > 1 else 'step'}"
+
+
+def drive_m(time_s: float) -> Any:
+    """Place of the drive (3,) [m]."""
+    risen = min(time_s / RISE_S, 1.0)
+    return np.array([PLACES_M[-1], LOW_M + risen * (HIGH_M - LOW_M), 0.0])
+
+
+def released(stiffening: Stiffening, every: int, elements: int, step_s: float) -> Callable[[], Track]:
+    """The rod at rest, and what runs it."""
+    shape = magnet_rod(elements, stiffening)
+    rod = cosserat_rod(shape)
+    rods = Rods()
+    rods.append(rod)
+    held = {"constrained_position_idx": (0, 1), "constrained_director_idx": (0,)}
+    rods.constrain(rod).using(elastica.FixedConstraint, **held)
+    rods.add_forcing_to(rod).using(Magnets, shape.middles, every)
+    rods.finalize()
+    stepper, step = elastica.PositionVerlet(), np.float64(step_s)
+    steps = round(SAMPLE_S / step_s)
+
+    def places_mm() -> Track:
+        return np.asarray(MM * rod.position_collection[:2, shape.middles].T)
+
+    def run() -> Track:
+        time_s = np.float64(0.0)
+        track_mm = np.full((INSTANTS + 1, len(shape.middles), 2), np.nan)
+        track_mm[0] = places_mm()
+        for instant in range(INSTANTS):
+            for _ in range(steps):
+                time_s = stepper.step(rods, time_s, step)
+            track_mm[instant + 1] = places_mm()
+            if not np.isfinite(track_mm[instant + 1]).all():
+                break
+        return track_mm
+
+    return run
+
+
+def cosserat_rod(shape: MagnetRod) -> Any:
+    """A rod of a circle's area, then given the masses and the stiffness of the shape."""
+    nodes_m = np.zeros((3, len(shape.nodes_m)))
+    nodes_m[0] = shape.nodes_m
+    rod = elastica.CosseratRod.straight_rod(
+        len(shape.nodes_m) - 1,
+        start=nodes_m[:, 0].copy(),
+        direction=np.array([1.0, 0.0, 0.0]),
+        normal=np.array([0.0, 0.0, 1.0]),  # the weak axis
+        base_length=float(np.ptp(shape.nodes_m)),
+        base_radius=math.sqrt(AREA_M2 / math.pi),
+        density=DENSITY_KG_M3,
+        youngs_modulus=YOUNGS_MODULUS_PA,
+        shear_modulus=SHEAR_MODULUS_PA,
+        position=nodes_m,
+    )
+    rod.mass[:] = shape.masses_kg
+    set_diagonals(rod.shear_matrix, shape.shear_n)
+    set_diagonals(rod.bend_matrix, shape.bend_n_m2)
+    set_diagonals(rod.mass_second_moment_of_inertia, shape.inertias_kg_m2)
+    set_diagonals(rod.inv_mass_second_moment_of_inertia, 1.0 / shape.inertias_kg_m2)
+    return rod
