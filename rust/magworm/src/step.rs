@@ -145,13 +145,15 @@ fn commit<const W: usize, const D: usize, I: Isa<W>>(
     let go = running & sound;
     let count = isa.load(&block.step_count[0]);
     isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
-    let lag = elastic::lag(model.scene.solver.integrator);
-    for dof in 0..model.coordinates.count {
-        let (q, v) = (isa.load(&block.q[dof]), isa.load(&block.v[dof]));
-        let (next, lagged) = (isa.load(&block.next[dof]), isa.load(&block.lagged[dof]));
-        isa.store(I::F::select(go, next + (v - next) * lag, lagged), &mut block.lagged[dof]);
-        isa.store(I::F::select(go, next, v), &mut block.v[dof]);
-        isa.store(I::F::select(go, q + next * model.step_s, q), &mut block.q[dof]);
+    let (lag, size) = (elastic::lag(model.scene.solver.integrator), model.coordinates.count);
+    let (places, speeds) = (&mut block.q[..size], &mut block.v[..size]);
+    let (ends, lags) = (&block.next[..size], &mut block.lagged[..size]);
+    for dof in 0..size {
+        let (q, v) = (isa.load(&places[dof]), isa.load(&speeds[dof]));
+        let (next, lagged) = (isa.load(&ends[dof]), isa.load(&lags[dof]));
+        isa.store(I::F::select(go, next + (v - next) * lag, lagged), &mut lags[dof]);
+        isa.store(I::F::select(go, next, v), &mut speeds[dof]);
+        isa.store(I::F::select(go, q + next * model.step_s, q), &mut places[dof]);
     }
     if D == 3 {
         elastic::turn(isa, model, block, go);

@@ -71,9 +71,10 @@ fn load_vector<const W: usize, const D: usize, I: Isa<W>>(
     rows: &[[I::Number; W]],
     c: usize,
 ) -> Vector<I::F> {
+    let rows = &rows[D * c..][..D];
     let mut vector = [isa.splat(0.0); 3];
     for k in 0..D {
-        vector[k] = isa.load(&rows[D * c + k]);
+        vector[k] = isa.load(&rows[k]);
     }
     vector
 }
@@ -87,7 +88,8 @@ fn store_vector<const W: usize, const D: usize, I: Isa<W>>(
     rows: &mut [[I::Number; W]],
     c: usize,
 ) {
+    let rows = &mut rows[D * c..][..D];
     for k in 0..D {
-        store_where(isa, mask, vector[k], &mut rows[D * c + k]);
+        store_where(isa, mask, vector[k], &mut rows[k]);
     }
 }

@@ -21,16 +21,18 @@ pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
     let kept = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
     let work = &mut block.contact;
+    let (mobilities, imbalance) = (&mut *work.mobility, &mut *work.imbalance);
+    let (known, rights) = (&mut *work.known, &*block.right);
     let mut size = zero;
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        let right = isa.load(&block.right[unknown]);
+        let right = isa.load(&rights[unknown]);
         let diagonal = isa.load(&symmetric[kept.at(row, row)]);
         // Multipliers have no mass; each system of theirs is solved as it is.
         let heavy = diagonal.gt(zero);
         let mobility = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
-        isa.store(mobility, &mut work.mobility[row]);
-        isa.store(-right, &mut work.imbalance[row]);
-        isa.store(zero, &mut work.known[row]);
+        isa.store(mobility, &mut mobilities[row]);
+        isa.store(-right, &mut imbalance[row]);
+        isa.store(zero, &mut known[row]);
         size = size + right * right * mobility;
     }
     for c in 0..model.contacts.len() {
@@ -51,9 +53,12 @@ pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
     let kept = model.system.kept();
     let ghosts = kept.half_bandwidth();
     let work = &mut block.contact;
-    for row in 0..kept.size() {
-        let change = isa.load(&work.target[ghosts + row]) - isa.load(&work.known[row]);
-        store_where(isa, mask, change, &mut work.direction[row]);
+    let size = kept.size();
+    let (target, known) = (&work.target[ghosts..][..size], &work.known[..size]);
+    let direction = &mut work.direction[..size];
+    for row in 0..size {
+        let change = isa.load(&target[row]) - isa.load(&known[row]);
+        store_where(isa, mask, change, &mut direction[row]);
     }
     kept.multiply(
         isa,
@@ -126,10 +131,12 @@ pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(
     isa: I,
     work: &Workspace<W, I::Number>,
 ) -> I::F {
+    let residuals = &*work.residual;
+    let mobilities = &work.mobility[..residuals.len()];
     let mut sum = isa.splat(0.0);
-    for row in 0..work.residual.len() {
-        let residual = isa.load(&work.residual[row]);
-        sum = sum + residual * residual * isa.load(&work.mobility[row]);
+    for row in 0..residuals.len() {
+        let residual = isa.load(&residuals[row]);
+        sum = sum + residual * residual * isa.load(&mobilities[row]);
     }
     sum
 }
@@ -141,9 +148,12 @@ pub(super) fn free_residual<const W: usize, I: Isa<W>>(
     work: &mut Workspace<W, I::Number>,
     step: I::F,
 ) {
-    for row in 0..work.residual.len() {
-        let change = isa.load(&work.imbalance_change[row]) * step;
-        isa.store(isa.load(&work.imbalance[row]) + change, &mut work.residual[row]);
+    let residuals = &mut *work.residual;
+    let imbalance = &work.imbalance[..residuals.len()];
+    let changes = &work.imbalance_change[..residuals.len()];
+    for row in 0..residuals.len() {
+        let change = isa.load(&changes[row]) * step;
+        isa.store(isa.load(&imbalance[row]) + change, &mut residuals[row]);
     }
 }
 
@@ -170,6 +180,7 @@ pub(super) fn follow<const W: usize, I: Isa<W>>(
     step: I::F,
     mask: I::M,
 ) {
+    let changes = &changes[..rows.len()];
     for k in 0..rows.len() {
         let next = isa.load(&rows[k]) + isa.load(&changes[k]) * step;
         store_where(isa, mask, next, &mut rows[k]);

@@ -3,7 +3,7 @@
 use super::{Ground, Mode, Vector, load_vector, store_vector};
 use crate::elastic::{axes, cross};
 use crate::lanes::{Isa, Real};
-use crate::model::{Contact, Model, Sole};
+use crate::model::{Contact, Model, Sole, body_size};
 use crate::state::Block;
 
 /// Fastest a point that starts inside the ground is pushed out [m/s].
@@ -156,18 +156,19 @@ pub(super) fn point_velocity<const W: usize, const D: usize, I: Isa<W>>(
     rigid: bool,
     arm: &[I::F; 3],
 ) -> Vector<I::F> {
+    let velocities = &velocities[first..][..if rigid { body_size(D) } else { D }];
     let mut velocity = [isa.splat(0.0); 3];
     for axis in 0..D {
-        velocity[axis] = isa.load(&velocities[first + axis]);
+        velocity[axis] = isa.load(&velocities[axis]);
     }
     if rigid && D == 2 {
-        let turn = isa.load(&velocities[first + 2]);
+        let turn = isa.load(&velocities[2]);
         velocity[0] = velocity[0] - turn * arm[1];
         velocity[1] = velocity[1] + turn * arm[0];
     } else if rigid {
         let mut turn = [isa.splat(0.0); 3];
         for axis in 0..3 {
-            turn[axis] = isa.load(&velocities[first + 3 + axis]);
+            turn[axis] = isa.load(&velocities[3 + axis]);
         }
         let moved = cross(&turn, arm);
         for axis in 0..3 {

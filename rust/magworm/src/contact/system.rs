@@ -7,7 +7,7 @@ use super::law::Response;
 use super::load_vector;
 use crate::elastic::cross;
 use crate::lanes::{Isa, Real, unsymmetric};
-use crate::model::Model;
+use crate::model::{Model, body_size};
 use crate::state::Block;
 
 /// Solves the system into `contact.target`.
@@ -96,6 +96,7 @@ pub(super) fn add_force<const W: usize, const D: usize, I: Isa<W>>(
     arm: &[I::F; 3],
     force: &[I::F; 3],
 ) {
+    let rows = &mut rows[..if rigid { body_size(D) } else { D }];
     for axis in 0..D {
         add(isa, &mut rows[axis], force[axis]);
     }
@@ -119,9 +120,10 @@ fn add_block<const W: usize, const D: usize, I: Isa<W>>(
     arm: &[I::F; 3],
     columns: &[[I::F; 3]; 3],
 ) {
-    for column in 0..D {
-        for row in 0..D {
-            add(isa, &mut matrix[place + row * stride + column], columns[column][row]);
+    for row in 0..D {
+        let entries = &mut matrix[place + row * stride..][..D];
+        for column in 0..D {
+            add(isa, &mut entries[column], columns[column][row]);
         }
     }
     if !rigid {
@@ -148,12 +150,15 @@ fn add_block<const W: usize, const D: usize, I: Isa<W>>(
             turned[column][row] = along[column];
         }
     }
-    for column in 0..3 {
-        let (of_motion, of_turn) = (cross(arm, &columns[column]), cross(arm, &turned[column]));
-        for row in 0..3 {
-            add(isa, &mut matrix[place + row * stride + 3 + column], turned[column][row]);
-            add(isa, &mut matrix[place + (3 + row) * stride + column], of_motion[row]);
-            add(isa, &mut matrix[place + (3 + row) * stride + 3 + column], of_turn[row]);
+    for row in 0..3 {
+        let of_force = &mut matrix[place + row * stride + 3..][..3];
+        for column in 0..3 {
+            add(isa, &mut of_force[column], turned[column][row]);
+        }
+        let of_torque = &mut matrix[place + (3 + row) * stride..][..6];
+        for column in 0..3 {
+            add(isa, &mut of_torque[column], cross(arm, &columns[column])[row]);
+            add(isa, &mut of_torque[3 + column], cross(arm, &turned[column])[row]);
         }
     }
 }

@@ -235,15 +235,17 @@ fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
     row: usize,
 ) {
     let mut scaled = weights;
+    let mut along = gradients;
     for k in 0..K {
         scaled[k] = gradients[k][row] * weights[k];
+        along[k] = &gradients[k][..=row];
     }
-    let first = row * (row + 1) / 2;
+    let entries = &stencil.entries[row * (row + 1) / 2..][..=row];
     for column in 0..=row {
-        let entry = &mut matrix[stencil.entries[first + column]];
+        let entry = &mut matrix[entries[column]];
         let mut sum = isa.load(entry);
         for k in 0..K {
-            sum = sum + scaled[k] * gradients[k][column];
+            sum = sum + scaled[k] * along[k][column];
         }
         isa.store(sum, entry);
     }
@@ -258,8 +260,10 @@ pub fn add_scaled<const W: usize, I: Isa<W>>(
     gradient: &[I::F],
     weight: I::F,
 ) {
-    for slot in 0..stencil.count {
-        let entry = &mut vector[stencil.dofs[slot]];
+    let dofs = &stencil.dofs[..stencil.count];
+    let gradient = &gradient[..dofs.len()];
+    for slot in 0..dofs.len() {
+        let entry = &mut vector[dofs[slot]];
         isa.store(isa.load(entry) + gradient[slot] * weight, entry);
     }
 }
@@ -272,9 +276,11 @@ pub fn rate<const W: usize, I: Isa<W>>(
     stencil: &Stencil,
     gradient: &[I::F],
 ) -> I::F {
+    let dofs = &stencil.dofs[..stencil.count];
+    let gradient = &gradient[..dofs.len()];
     let mut sum = isa.splat(0.0);
-    for slot in 0..stencil.count {
-        sum = sum + gradient[slot] * isa.load(&vector[stencil.dofs[slot]]);
+    for slot in 0..dofs.len() {
+        sum = sum + gradient[slot] * isa.load(&vector[dofs[slot]]);
     }
     sum
 }

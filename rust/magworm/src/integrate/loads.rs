@@ -16,9 +16,10 @@ const WRENCH: usize = 6;
 pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
+    let (masses, right) = (&*block.mass, &mut *block.right);
     for &(dof, axis) in &model.translations {
-        let push = isa.load(&block.mass[dof]) * (gravity[axis] * dt);
-        isa.store(isa.load(&block.right[dof]) + push, &mut block.right[dof]);
+        let push = isa.load(&masses[dof]) * (gravity[axis] * dt);
+        isa.store(isa.load(&right[dof]) + push, &mut right[dof]);
     }
 }
 

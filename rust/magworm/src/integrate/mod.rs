@@ -24,7 +24,7 @@ pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
     model: &Model,
     block: &mut Block<W, I::Number>,
 ) {
-    block.matrix.fill([Default::default(); W]);
+    model.system.clear(isa, &mut block.matrix);
     diagonal_inertia(isa, model, block);
     if D == 3 {
         rotary_inertia(isa, model, block);
@@ -54,10 +54,13 @@ fn diagonal_inertia<const W: usize, I: Isa<W>>(
     model: &Model,
     block: &mut Block<W, I::Number>,
 ) {
-    for dof in 0..model.coordinates.count {
-        let mass = isa.load(&block.mass[dof]);
-        isa.store(mass, &mut block.matrix[model.system.at(dof, dof)]);
-        isa.store(mass * isa.load(&block.v[dof]), &mut block.right[dof]);
+    let (count, matrix) = (model.coordinates.count, &mut *block.matrix);
+    let (masses, speeds) = (&block.mass[..count], &block.v[..count]);
+    let right = &mut block.right[..count];
+    for dof in 0..count {
+        let mass = isa.load(&masses[dof]);
+        isa.store(mass, &mut matrix[model.system.at(dof, dof)]);
+        isa.store(mass * isa.load(&speeds[dof]), &mut right[dof]);
     }
 }
 

@@ -6,10 +6,14 @@
 //! loops unroll and their numbers stay in registers.
 
 use super::Isa;
+use std::ops::Range;
 
 /// Half-bandwidths that kernels are compiled for. In the plane: rods, worms, magnets next to each other, and
 /// nodes that multipliers tie to a magnet from both sides; in space: rods, worms, magnets next to each other.
 const COMPILED: [usize; 7] = [5, 6, 8, 10, 11, 13, 16];
+
+/// Why there are as many rows above and below each row as the half-bandwidth.
+pub(super) const GHOSTS: &str = "ghost rows stand above the first row and below the last";
 
 /// Compiles an expression for the instruction set as a function of its own.
 macro_rules! vectorized {
@@ -21,6 +25,23 @@ macro_rules! vectorized {
     };
 }
 pub(super) use vectorized;
+
+/// Writes a block out once for each k from 0 below an end of at most 16 that is known when it is compiled. Compilers
+/// leave long loops as loops, and a loop keeps its numbers in memory and asks at each of them whether it is there.
+macro_rules! unrolled {
+    ($k:ident < $end:expr => $work:block) => {
+        unrolled!(@ $k, $end, $work, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+    };
+    (@ $k:ident, $end:expr, $work:block, $($number:literal)*) => {
+        $(
+            if $number < $end {
+                let $k: usize = $number;
+                $work
+            }
+        )*
+    };
+}
+pub(super) use unrolled;
 
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,6 +82,12 @@ impl Band {
         (self.size + 2 * self.half_bandwidth) * (self.half_bandwidth + 1)
     }
 
+    /// Places of all entries but those of the ghost rows.
+    pub fn inner(&self) -> Range<usize> {
+        let ghosts = self.half_bandwidth * (self.half_bandwidth + 1);
+        ghosts..self.entries() - ghosts
+    }
+
     /// Place of entry (row, column), column ≤ row.
     #[inline(always)]
     pub fn at(&self, row: usize, column: usize) -> usize {
@@ -90,14 +117,22 @@ impl Band {
         vector: &[[I::Number; W]],
         product: &mut [[I::Number; W]],
     ) {
+        let h = self.half_bandwidth;
         for row in 0..self.size {
+            let first = row.saturating_sub(h);
+            let (before, after) = vector.split_at(row + 1);
+            let before = &before[first..];
+            let left = &matrix[self.at(row, first)..][..before.len()];
             let mut sum = isa.splat(0.0);
-            let first = row.saturating_sub(self.half_bandwidth);
-            for column in first..=row {
-                sum = sum + isa.load(&matrix[self.at(row, column)]) * isa.load(&vector[column]);
+            for k in 0..before.len() {
+                sum = sum + isa.load(&left[k]) * isa.load(&before[k]);
             }
-            for column in row + 1..(row + 1 + self.half_bandwidth).min(self.size) {
-                sum = sum + isa.load(&matrix[self.at(column, row)]) * isa.load(&vector[column]);
+            // Entries of a column stand a row less one apart.
+            let after = &after[..h.min(after.len())];
+            let mut place = self.at(row, row);
+            for k in 0..after.len() {
+                place += h;
+                sum = sum + isa.load(&matrix[place]) * isa.load(&after[k]);
             }
             isa.store(sum, &mut product[row]);
         }
@@ -131,35 +166,40 @@ fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
 ) {
     let (rows, _) = matrix.as_chunks_mut::<ROW>();
     for row in H..size + H {
-        factor_row::<W, I, H, ROW>(isa, rows, row);
+        factor_row::<W, I, H, ROW>(isa, rows, row, 0);
     }
 }
 
-/// One row, given those above it.
+/// One row, given those above it, whose entries begin in column `first`.
 #[inline(always)]
 pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
     rows: &mut [[[I::Number; W]; ROW]],
     row: usize,
+    first: usize,
 ) {
     let one = isa.splat(1.0);
     let (above, below) = rows.split_at_mut(row);
-    let above = &above[row - H..];
+    let above = above.last_chunk::<H>().expect(GHOSTS);
     let current = &mut below[0];
     let mut pivot = isa.load(&current[H]);
     let mut u = [one; H];
-    for column in 0..H {
-        let mut sum = isa.load(&current[column]);
-        for k in 0..column {
-            sum = sum - u[k] * isa.load(&above[column][H + k - column]);
+    unrolled!(column < H => {
+        if column >= first {
+            let mut sum = isa.load(&current[column]);
+            for k in first..column {
+                sum = sum - u[k] * isa.load(&above[column][H + k - column]);
+            }
+            u[column] = sum;
         }
-        u[column] = sum;
-    }
-    for column in 0..H {
-        let l = u[column] * isa.load(&above[column][H]);
-        pivot = pivot - u[column] * l;
-        isa.store(l, &mut current[column]);
-    }
+    });
+    unrolled!(column < H => {
+        if column >= first {
+            let l = u[column] * isa.load(&above[column][H]);
+            pivot = pivot - u[column] * l;
+            isa.store(l, &mut current[column]);
+        }
+    });
     isa.store(one / pivot, &mut current[H]);
 }
 
@@ -186,8 +226,9 @@ fn solve<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     let mut known = [isa.splat(0.0); H];
     for (row, value) in right.iter_mut().enumerate().rev() {
         let mut sum = isa.load(value) * isa.load(&rows[row + H][H]);
+        let below = rows[row + H + 1..].first_chunk::<H>().expect(GHOSTS);
         for k in 0..H {
-            sum = sum - isa.load(&rows[row + H + 1 + k][H - 1 - k]) * known[k];
+            sum = sum - isa.load(&below[k][H - 1 - k]) * known[k];
         }
         for k in (1..H).rev() {
             known[k] = known[k - 1];

@@ -191,6 +191,22 @@ impl Chain {
         self.start_of_border() + self.body * self.place.len()
     }
 
+    /// Sets all entries to zero that elimination leaves otherwise; the rest, two fifths for a worm, are zeros from the start.
+    #[inline(always)]
+    pub fn clear<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[I::Number; W]]) {
+        let (soft, kept) = matrix.split_at_mut(self.start_of_kept());
+        zero(isa, &mut kept[self.kept.inner()]);
+        if self.segments.is_empty() {
+            return;
+        }
+        let (band, border) = soft.split_at_mut(self.start_of_border());
+        zero(isa, &mut band[self.band.inner()]);
+        for segment in self.segments.iter().filter(|segment| segment.left.is_some()) {
+            let rows = self.body * segment.rows.start..self.body * segment.rows.end;
+            zero(isa, &mut border[rows]);
+        }
+    }
+
     /// Eliminates the soft unknowns in place: what is left of `matrix` and `right` at the kept unknowns is their own
     /// system.
     pub fn condense<const W: usize, I: Isa<W>>(
@@ -227,6 +243,13 @@ impl Chain {
                 );
             });
         }
+    }
+}
+
+#[inline(always)]
+fn zero<const W: usize, I: Isa<W>>(isa: I, rows: &mut [[I::Number; W]]) {
+    for row in rows {
+        isa.store(isa.splat(0.0), row);
     }
 }
 

@@ -5,7 +5,7 @@
 //! never stored: each matrix is solved for one right-hand side.
 
 use super::Isa;
-use super::banded::{Band, vectorized};
+use super::banded::{Band, GHOSTS, unrolled, vectorized};
 
 /// Numbers in a row of half-bandwidth h.
 pub const fn row_length(half_bandwidth: usize) -> usize {
@@ -72,12 +72,14 @@ fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for row in H..size + H {
         let stored = &lower[row * (H + 1)..(row + 1) * (H + 1)];
+        let (above, below) = rows.split_at_mut(row);
+        let above = above.last_chunk_mut::<H>().expect(GHOSTS);
         for k in 0..H {
             let value = isa.load(&stored[k]);
-            isa.store(value, &mut rows[row][k]);
-            isa.store(value, &mut rows[row + k - H][ROW - 1 - k]);
+            isa.store(value, &mut below[0][k]);
+            isa.store(value, &mut above[k][ROW - 1 - k]);
         }
-        isa.store(isa.load(&stored[H]), &mut rows[row][H]);
+        isa.store(isa.load(&stored[H]), &mut below[0][H]);
     }
     // Beyond the last column an elimination may have left something that is not a number.
     for (beyond, row) in rows[size..size + H].iter_mut().enumerate() {
@@ -96,17 +98,38 @@ pub fn solve<const W: usize, I: Isa<W>>(
 ) {
     let size = band.size();
     match (band.half_bandwidth(), body) {
-        (5, 3) => vectorized!(isa, solve_rows::<W, I, 5, 11, 3>(isa, size, full, right)),
-        (11, 6) => vectorized!(isa, solve_rows::<W, I, 11, 23, 6>(isa, size, full, right)),
+        (5, 3) => vectorized!(isa, solve_bodies::<W, I, 5, 11, 3, 9>(isa, size, full, right)),
+        (11, 6) => vectorized!(isa, solve_bodies::<W, I, 11, 23, 6, 18>(isa, size, full, right)),
         _ => dispatch!(band, H, ROW => {
-            vectorized!(isa, solve_rows::<W, I, H, ROW, 1>(isa, size, full, right));
+            vectorized!(isa, solve_rows::<W, I, H, ROW>(isa, size, full, right));
         }),
     }
 }
 
-/// B: unknowns of a body, 1 for a band without bodies.
 #[inline(always)]
-fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const B: usize>(
+fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+    isa: I,
+    size: usize,
+    full: &mut [[I::Number; W]],
+    right: &mut [[I::Number; W]],
+) {
+    let (rows, _) = full.as_chunks_mut::<ROW>();
+    for row in H..size + H {
+        eliminate::<W, I, H, ROW>(isa, rows, right, row);
+    }
+    substitute::<W, I, H, ROW>(isa, size, full, right);
+}
+
+/// B: unknowns of a body, C: those of three.
+#[inline(always)]
+fn solve_bodies<
+    const W: usize,
+    I: Isa<W>,
+    const H: usize,
+    const ROW: usize,
+    const B: usize,
+    const C: usize,
+>(
     isa: I,
     size: usize,
     full: &mut [[I::Number; W]],
@@ -115,46 +138,91 @@ fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for body in 0..size / B {
         for slot in 0..B {
-            eliminate::<W, I, H, ROW, B>(isa, rows, right, H + B * body + slot, slot);
+            eliminate_of_body::<W, I, H, ROW, B, C>(isa, rows, right, H + B * body, slot);
         }
     }
     substitute::<W, I, H, ROW>(isa, size, full, right);
 }
 
-/// One row: what stands left of the diagonal is eliminated by the rows above; the diagonal becomes 1/pivot. A row of a body
-/// meets the body before its own, its own and the one behind it: 1,060 products for three bodies of six in place of
-/// 2,180.
+/// One row: what stands left of the diagonal is eliminated by the rows above; the diagonal becomes 1/pivot.
 #[inline(always)]
-fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize, const B: usize>(
+fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     isa: I,
     rows: &mut [[[I::Number; W]; ROW]],
     right: &mut [[I::Number; W]],
     row: usize,
-    slot: usize,
 ) {
     let one = isa.splat(1.0);
     let (above, below) = rows.split_at_mut(row);
-    let above = &above[row - H..];
-    let (first, last) = if B == 1 { (0, ROW - 1) } else { (B - 1 - slot, ROW - 1 - slot) };
+    let (known, unknown) = right.split_at_mut(row);
+    let above = above.last_chunk::<H>().expect(GHOSTS);
+    let known = known.last_chunk::<H>().expect(GHOSTS);
     let mut current = [one; ROW];
-    for k in first..=last {
+    for k in 0..ROW {
         current[k] = isa.load(&below[0][k]);
     }
-    let mut y = isa.load(&right[row]);
-    for k in first..H {
+    let mut y = isa.load(&unknown[0]);
+    unrolled!(k < H => {
         let l = current[k] * isa.load(&above[k][H]);
-        // The row that eliminates this column reaches to the end of the body behind its own.
-        let reach = if B == 1 { H } else { H - (slot + 1 + k) % B };
-        for j in 1..=reach {
+        for j in 1..=H {
             current[k + j] = current[k + j] - l * isa.load(&above[k][H + j]);
         }
-        y = y - l * isa.load(&right[row - H + k]);
-    }
+        y = y - l * isa.load(&known[k]);
+    });
     isa.store(one / current[H], &mut below[0][H]);
-    for k in H + 1..=last {
+    for k in H + 1..ROW {
         isa.store(current[k], &mut below[0][k]);
     }
-    isa.store(y, &mut right[row]);
+    isa.store(y, &mut unknown[0]);
+}
+
+/// The same for a row of a body whose first row is `first`. The row meets the body before its own, its own and the one
+/// behind it, and so do the rows that eliminate it: 1,060 products for three bodies of six in place of 2,180. Columns are
+/// numbered through these three bodies: a compiler then knows all of them but the diagonal.
+#[inline(always)]
+fn eliminate_of_body<
+    const W: usize,
+    I: Isa<W>,
+    const H: usize,
+    const ROW: usize,
+    const B: usize,
+    const C: usize,
+>(
+    isa: I,
+    rows: &mut [[[I::Number; W]; ROW]],
+    right: &mut [[I::Number; W]],
+    first: usize,
+    slot: usize,
+) {
+    let one = isa.splat(1.0);
+    let (above, below) = rows[first - B..].split_at_mut(B + slot);
+    let (known, unknown) = right[first - B..].split_at_mut(B + slot);
+    let entries =
+        below[0][B - 1 - slot..].first_chunk_mut::<C>().expect("a row is four bodies long");
+    let mut current = [one; C];
+    for column in 0..C {
+        current[column] = isa.load(&entries[column]);
+    }
+    let (mut y, mut pivot) = (isa.load(&unknown[0]), one);
+    unrolled!(k < 2 * B => {
+        if k < B + slot {
+            let eliminating = &above[k];
+            let l = current[k] * isa.load(&eliminating[H]);
+            // To the end of the body behind that of the eliminating row.
+            for j in 1..2 * B - k % B {
+                current[k + j] = current[k + j] - l * isa.load(&eliminating[H + j]);
+            }
+            y = y - l * isa.load(&known[k]);
+        } else if k == B + slot {
+            pivot = current[k];
+        }
+    });
+    // What stands left of the diagonal is not read again.
+    for column in B + 1..C {
+        isa.store(current[column], &mut entries[column]);
+    }
+    isa.store(one / pivot, &mut entries[B + slot]);
+    isa.store(y, &mut unknown[0]);
 }
 
 #[inline(always)]
@@ -166,11 +234,13 @@ fn substitute<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
 ) {
     let (rows, _) = full.as_chunks::<ROW>();
     for row in (H..size + H).rev() {
-        let mut sum = isa.load(&right[row]);
-        for k in 1..=H {
-            sum = sum - isa.load(&rows[row][H + k]) * isa.load(&right[row + k]);
-        }
-        isa.store(sum * isa.load(&rows[row][H]), &mut right[row]);
+        let (unknown, known) = right.split_at_mut(row + 1);
+        let known = known.first_chunk::<H>().expect(GHOSTS);
+        let (entries, mut sum) = (&rows[row], isa.load(&unknown[row]));
+        unrolled!(k < H => {
+            sum = sum - isa.load(&entries[H + 1 + k]) * isa.load(&known[k]);
+        });
+        isa.store(sum * isa.load(&entries[H]), &mut unknown[row]);
     }
 }
 

@@ -1,8 +1,9 @@
 //! Elimination of one segment between two bodies, and the way back.
 
-use super::super::banded::factor_row;
+use super::super::banded::{factor_row, unrolled};
 use super::super::{Isa, Number};
 use super::{Chain, Segment};
+use std::ops::Range;
 
 /// The stored parts of a system.
 pub(super) struct Parts<'a, const W: usize, N> {
@@ -27,9 +28,17 @@ impl<const W: usize, N: Number> Parts<'_, W, N> {
         right: &mut [[N; W]],
     ) {
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
-        for row in segment.rows.clone() {
-            factor_row::<W, I, H, ROW>(isa, rows, row + H);
-            substitute::<W, I, H>(isa, segment, &rows[row + H], row, right);
+        let Range { start, end } = segment.rows.clone();
+        // The first rows of a segment reach back to its beginning only.
+        unrolled!(offset < H => {
+            if start + offset < end {
+                factor_row::<W, I, H, ROW>(isa, rows, start + offset + H, H - offset);
+                substitute::<W, I, H>(isa, &rows[start + offset + H], H - offset, start + offset, right);
+            }
+        });
+        for row in start + H..end {
+            factor_row::<W, I, H, ROW>(isa, rows, row + H, 0);
+            substitute::<W, I, H>(isa, &rows[row + H], 0, row, right);
         }
         if segment.left.is_some() {
             self.eliminate_left::<I, H, ROW, K>(isa, segment, right);
@@ -61,10 +70,12 @@ impl<const W: usize, N: Number> Parts<'_, W, N> {
             for j in 0..K {
                 u[j] = isa.load(&border[row][j]);
             }
-            for k in first_column::<H>(segment, row)..H {
-                let l = isa.load(&rows[row + H][k]);
+            let reach = H.min(row - segment.rows.start);
+            let (factors, above) = (&rows[row + H][H - reach..H], &border[row - reach..row]);
+            for k in 0..reach {
+                let l = isa.load(&factors[k]);
                 for j in 0..K {
-                    u[j] = u[j] - l * isa.load(&border[row + k - H][j]);
+                    u[j] = u[j] - l * isa.load(&above[k][j]);
                 }
             }
             let inverse = isa.load(&rows[row + H][H]);
@@ -99,36 +110,45 @@ impl<const W: usize, N: Number> Parts<'_, W, N> {
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
         let (above, below) = rows.split_at_mut(first + slot + H);
         let row = first + slot;
-        let columns = first_column::<H>(segment, row)..H - slot;
+        // Its columns in the segment: `count` of them from the `start`th of its band on.
+        let start = first_column::<H>(segment, row);
+        let count = H - slot - start;
+        let at = row + start - H;
+        let (entries, above_entries) = (&mut below[0], &above[row + start..][..count]);
+        let known = &right[at..][..count];
         let mut u = [isa.splat(0.0); H];
         let mut load = isa.splat(0.0);
-        for k in columns.clone() {
-            let column = &above[row + k];
-            let mut sum = isa.load(&below[0][k]);
-            for m in columns.start..k {
-                sum = sum - u[m] * isa.load(&column[H + m - k]);
+        for k in 0..count {
+            let column = &above_entries[k];
+            let mut sum = isa.load(&entries[start + k]);
+            let (before, factors) = (&u[..k], &column[H - k..H]);
+            for m in 0..k {
+                sum = sum - before[m] * isa.load(&factors[m]);
             }
             u[k] = sum;
             let l = sum * isa.load(&column[H]);
-            isa.store(l, &mut below[0][k]);
-            load = load + l * isa.load(&right[row + k - H]);
+            isa.store(l, &mut entries[start + k]);
+            load = load + l * isa.load(&known[k]);
         }
+        let u = &u[..count];
         subtract(isa, &mut right[row], load);
         let kept = &self.chain.kept;
         for other in 0..=slot {
+            let l = if other == slot { &below[0] } else { &above[first + other + H] };
+            let l = &l[start + slot - other..][..count];
             let mut sum = isa.splat(0.0);
-            for k in columns.clone() {
-                let l = if other == slot { &below[0] } else { &above[first + other + H] };
-                sum = sum + u[k] * isa.load(&l[k + slot - other]);
+            for k in 0..count {
+                sum = sum + u[k] * isa.load(&l[k]);
             }
             subtract(isa, &mut self.kept[kept.at(place + slot, place + other)], sum);
         }
         let Some(left) = segment.left.and_then(|left| self.chain.place(left)) else { return };
         let (border, _) = self.border.as_chunks::<K>();
+        let (factors, border) = (&below[0][start..][..count], &border[at..][..count]);
         for j in 0..K {
             let mut sum = isa.splat(0.0);
-            for k in columns.clone() {
-                sum = sum + isa.load(&below[0][k]) * isa.load(&border[row + k - H][j]);
+            for k in 0..count {
+                sum = sum + isa.load(&factors[k]) * isa.load(&border[k][j]);
             }
             subtract(isa, &mut self.kept[kept.at(place + slot, left + j)], sum);
         }
@@ -146,20 +166,23 @@ fn subtract<const W: usize, I: Isa<W>>(isa: I, entry: &mut [I::Number; W], value
     isa.store(isa.load(entry) - value, entry);
 }
 
-/// Forward substitution in one row.
+/// Forward substitution in one row, whose entries in the segment begin in column `first`.
 #[inline(always)]
 fn substitute<const W: usize, I: Isa<W>, const H: usize>(
     isa: I,
-    segment: &Segment,
     factored: &[[I::Number; W]],
+    first: usize,
     row: usize,
     right: &mut [[I::Number; W]],
 ) {
-    let mut sum = isa.load(&right[row]);
-    for k in first_column::<H>(segment, row)..H {
-        sum = sum - isa.load(&factored[k]) * isa.load(&right[row + k - H]);
+    let reach = H - first;
+    let (known, unknown) = right.split_at_mut(row);
+    let (factors, known) = (&factored[first..H], &known[row - reach..]);
+    let mut sum = isa.load(&unknown[0]);
+    for k in 0..reach {
+        sum = sum - isa.load(&factors[k]) * isa.load(&known[k]);
     }
-    isa.store(sum, &mut right[row]);
+    isa.store(sum, &mut unknown[0]);
 }
 
 /// Backward substitution through a segment.
@@ -189,8 +212,10 @@ pub(super) fn recover<
             }
         }
         sum = sum * isa.load(&rows[row + H][H]);
-        for k in 1..=H.min(end - 1 - row) {
-            sum = sum - isa.load(&rows[row + H + k][H - k]) * isa.load(&solution[row + k]);
+        let reach = H.min(end - 1 - row);
+        let (below, known) = (&rows[row + H..][..=reach], &solution[row..][..=reach]);
+        for k in 1..=reach {
+            sum = sum - isa.load(&below[k][H - k]) * isa.load(&known[k]);
         }
         isa.store(sum, &mut solution[row]);
     }

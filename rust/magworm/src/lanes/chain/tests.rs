@@ -58,6 +58,23 @@ fn solves(bodies: &[usize], body: usize, size: usize, reach: usize, numbers: &[f
     (0..size).map(|k| (solution[k][0] - expected[k]).abs()).fold(0.0, f64::max)
 }
 
+/// A new matrix is zeros, so a step that begins with a cleared one begins as the first did.
+#[test]
+fn a_matrix_that_was_eliminated_is_zeros_once_it_is_cleared() {
+    for (size, bodies, body, reach) in [(33, [2, 11, 20], 3, 5), (68, [4, 23, 42], 6, 10)] {
+        let mut chain = Chain::condensed(size, &bodies, body);
+        chain.couple(&[0, 1]);
+        let numbers: Vec<f64> = (0..97).map(|k| (f64::from(k) * 0.7).sin()).collect();
+        let (_, mut matrix) = random(&chain, reach, &numbers);
+        let mut right = vec![[1.0]; size];
+        chain.condense(Scalar, &mut matrix, &mut right);
+        chain.kept().factor(Scalar, &mut matrix[chain.start_of_kept()..]);
+        assert!(matrix.iter().any(|row| row[0] != 0.0));
+        chain.clear(Scalar, &mut matrix);
+        assert!(matrix.iter().all(|row| row[0] == 0.0));
+    }
+}
+
 proptest! {
     #[test]
     fn chains_solve_like_a_dense_factorisation(
