@@ -132,7 +132,7 @@ class Batch:
     ) -> None:
         """Resets the environments of mask (N,). Random draws depend on (seed, episode) of the
         environment alone. start (N, 3): x [m], height [m], angle [rad]; in space (N, 5), with z [m] and
-        yaw [rad]; None: the scene's."""
+        yaw [rad]; None: the scene's. The body is bent as the scene says, whatever its pose."""
     def step(
         self, actions: NDArray[np.float64]
     ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from magworm_gym.tasks import GoalOption
 
 START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
-"""Fields of the option `start`, each with its largest magnitude: those of a scene."""
+"""Fields of the option `start`, each with its largest magnitude: those of a scene but for the shape."""
 
 START_LIMITS_IN_SPACE = {**START_LIMITS, "z_m": 10.0, "yaw_deg": 360.0}
 """The same for a scene in space."""

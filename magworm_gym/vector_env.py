@@ -64,7 +64,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     through autoresets; a scalar is for all environments, an array (N,) one value for each:
 
     - ``"start"``: ``{"x_m", "height_m", "angle_deg"}``, in space also ``"z_m"`` and ``"yaw_deg"``: pose of
-      the straight body; parts left out are 0.
+      the body; parts left out are 0. Its shape, straight or bent, is always the scene's.
     - ``"removed"``: magnets taken out, counted from 0 at the head, in place of the scene's own
       ``removed``: one sequence for all, or N sequences.
     - ``"parameters"``: factors of the scene's values by name, see ``batch.parameter_names``.

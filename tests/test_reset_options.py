@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
 
-from magworm_gym import MagWormEnv, MagWormVectorEnv
+from magworm_gym import MagWormEnv, MagWormVectorEnv, Scene
 
 
 def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormVectorEnv:
@@ -30,6 +30,24 @@ def test_start_turns_the_body() -> None:
     flat = env.batch.magnet_poses()[:, 0, 2]
     env.reset(seed=0, options={"start": {"height_m": 0.05, "angle_deg": 30.0}})
     np.testing.assert_allclose(env.batch.magnet_poses()[:, 0, 2] - flat, np.deg2rad(30.0), atol=1e-12)
+
+
+def test_start_moves_a_bent_body_and_keeps_its_shape() -> None:
+    bent = Scene.preset("paper-3").with_values({"start.bends_deg": [40, -90.0], "start.x_m": 0.5})
+    env = crawl(scene=bent)
+    env.reset(seed=0)
+    own = env.batch.node_positions()
+    assert own[:, 0, 0].tolist() == [0.5] * 3
+    env.reset(seed=0, options={"start": {"x_m": 0.1, "angle_deg": [0.0, 0.0, 30.0]}})
+    moved = env.batch.node_positions()
+    np.testing.assert_allclose(moved[:2] - own[:2], np.broadcast_to([-0.4, 0.0], own[:2].shape), atol=1e-12)
+    np.testing.assert_allclose(
+        np.linalg.norm(moved - moved[:, :1], axis=-1), np.linalg.norm(own - own[:, :1], axis=-1), atol=1e-12
+    )
+    turn = np.arctan2(*(moved[2, 1] - moved[2, 0])[::-1]) - np.arctan2(*(own[2, 1] - own[2, 0])[::-1])
+    assert turn == pytest.approx(np.deg2rad(30.0))
+    with pytest.raises(ValueError, match="'bends_deg'; allowed: x_m, height_m, angle_deg"):
+        env.reset(options={"start": {"bends_deg": [0.0]}})
 
 
 def test_removed_for_all_and_for_each() -> None:

@@ -10,11 +10,12 @@ from pathlib import Path
 from studies.paper.figures import save
 from studies.stability.axes import ALONE, CROSSED
 from studies.stability.cases import alone, crossed, every_pair, judge
-from studies.stability.data import energy_csv, limits_csv, outcomes_csv
+from studies.stability.data import energy_csv, limits_csv, outcomes_csv, starts_csv
 from studies.stability.energy import swings
 from studies.stability.limits import limits
 from studies.stability.page import IMAGES, page
-from studies.stability.pictures import robot_map, rod_map
+from studies.stability.pictures import robot_map, rod_map, start_strip
+from studies.stability.starts import starts, untyings
 from studies.stopwatch import Stopwatch
 
 HERE = Path(__file__).parent
@@ -51,18 +52,22 @@ def main() -> None:
         for body, pairs in CROSSED.items()
     }
     said("crossed")
+    bent, untied = starts(), untyings()
+    said("bent starts")
     if long:
         PAIRS.write_text(outcomes_csv(judge(every_pair(), accuracy=False)), encoding="utf-8")
         said("pairs")
     (DOCS / IMAGES).mkdir(parents=True, exist_ok=True)
-    for name, figure in {"rod": rod_map(maps["rod"]), "robot": robot_map(maps["robot"])}.items():
+    figures = {"rod": rod_map(maps["rod"]), "robot": robot_map(maps["robot"]), "starts": start_strip()}
+    for name, figure in figures.items():
         save(figure, DOCS / IMAGES / f"{name}.png")
     texts = {
         HERE / "alone.csv": outcomes_csv(single),
         HERE / "crossed.csv": outcomes_csv(maps["rod"] + maps["robot"]),
+        HERE / "starts.csv": starts_csv(bent),
         HERE / "limits.csv": limits_csv(found),
         HERE / "energy.csv": energy_csv(energies),
-        DOCS / "stability.md": page(found, energies, single, maps, PAIRS),
+        DOCS / "stability.md": page(found, energies, single, maps, bent, untied, PAIRS),
     }
     for path, text in texts.items():
         path.write_text(text, encoding="utf-8")

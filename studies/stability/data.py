@@ -8,6 +8,7 @@ from io import StringIO
 from studies.stability.cases import Outcome
 from studies.stability.energy import Swing
 from studies.stability.limits import Limit
+from studies.stability.starts import StartCase
 
 
 def outcomes_csv(outcomes: Sequence[Outcome]) -> str:
@@ -29,6 +30,19 @@ def outcomes_csv(outcomes: Sequence[Outcome]) -> str:
                 outcome.sentence,
             ]
         )
+    return _text(rows)
+
+
+def starts_csv(outcomes: Sequence[Outcome]) -> str:
+    """One row a bent start under a scheme; what has no value is empty."""
+    head = ["body", "dimensions", "start", "integrator", "step_s", "verdict", "error", "sentence"]
+    rows: list[Sequence[object]] = [head]
+    for outcome in outcomes:
+        case = outcome.case
+        assert isinstance(case, StartCase)
+        scheme = [case.start, case.integrator, f"{case.step_s:g}"]
+        found = [outcome.verdict, _number(outcome.error), outcome.sentence]
+        rows.append([case.body, case.dimensions, *scheme, *found])
     return _text(rows)
 
 

@@ -1,22 +1,26 @@
-//! Initial states: the straight body at rest, and what each environment draws at random.
+//! Initial states: the body at rest, straight or bent, and what each environment draws at random.
+
+mod laid;
+
+use laid::{Bent, Laid, Straight};
 
 use crate::drive::{DriveModel, Path, StageModel, stage_axes};
 use crate::lanes::Number;
 use crate::lanes::math::sin_cos;
-use crate::model::{Anchor, Model, Sole};
+use crate::model::{Anchor, Model};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 
-/// Pose of the straight body at the start.
+/// Pose of the body at the start; its shape is always the scene's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StartPose {
-    /// Shift along x [m].
+    /// Place of the head end along x [m].
     pub x_m: f64,
     /// Height of the lowest point over the ground [m].
     pub height_m: f64,
     /// Rotation about the head end in the plane x–y, anticlockwise [rad].
     pub angle_rad: f64,
-    /// Shift along z, in space [m].
+    /// Place of the head end along z, in space [m].
     pub z_m: f64,
     /// Rotation about the vertical through the head end after that, in space [rad]; anticlockwise from above.
     pub yaw_rad: f64,
@@ -70,7 +74,7 @@ pub fn rest<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, l
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         block.present[body][lane] = N::of(f64::from(u8::from(magnet.present)));
     }
-    lay_straight(model, block, lane, scene_start(model));
+    lay(model, block, lane, scene_start(model));
     apply_parameters(model, block, lane);
     block.status[lane] = Status::Unused;
 }
@@ -96,7 +100,7 @@ pub fn reset<const W: usize, N: Number>(
     for (body, &is_in) in present.iter().enumerate() {
         block.present[body][lane] = N::of(f64::from(u8::from(is_in)));
     }
-    lay_straight(model, block, lane, start);
+    lay(model, block, lane, start);
     apply_parameters(model, block, lane);
     if let Some(drive) = &model.program.drive {
         place_drive(model, drive, block, lane, &mut draws);
@@ -104,7 +108,8 @@ pub fn reset<const W: usize, N: Number>(
     block.status[lane] = Status::Running;
 }
 
-fn lay_straight<const W: usize, N: Number>(
+/// Lays the body of one lane down, at rest.
+fn lay<const W: usize, N: Number>(
     model: &Model,
     block: &mut Block<W, N>,
     lane: usize,
@@ -117,52 +122,52 @@ fn lay_straight<const W: usize, N: Number>(
         rows.iter_mut().for_each(|row| row[lane] = N::default());
     }
     block.step_count[0][lane] = N::default();
+    match &model.shape {
+        None => put(model, block, lane, &Straight::new(model, start)),
+        Some(shape) => {
+            put(model, block, lane, &Bent::new(model, shape, start));
+            for (row, [_, _, twist]) in block.twist.iter_mut().zip(&shape.strains) {
+                row[lane] = N::of(*twist);
+            }
+        }
+    }
+}
+
+/// Puts nodes, magnets and frames where they are laid.
+fn put<const W: usize, N: Number>(
+    model: &Model,
+    block: &mut Block<W, N>,
+    lane: usize,
+    laid: &impl Laid,
+) {
     let axes = model.dimensions();
-    let (sin, cos) = sin_cos(start.angle_rad);
-    let (yaw_sin, yaw_cos) = sin_cos(start.yaw_rad);
-    let head = [start.x_m, start.height_m + drop_to_lowest(model, sin, cos), start.z_m];
-    let tangent = [cos * yaw_cos, sin, -(cos * yaw_sin)];
-    let place = |arc: f64, axis: usize| head[axis] + arc * tangent[axis];
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
-        let arc = model.mesh.arc_m[node];
+        let place = laid.node(node);
         for axis in 0..axes {
             match *anchor {
-                Anchor::Free { dof } => block.q[dof + axis][lane] = N::of(place(arc, axis)),
-                Anchor::Fixed => block.held[axes * node + axis][lane] = N::of(place(arc, axis)),
+                Anchor::Free { dof } => block.q[dof + axis][lane] = N::of(place[axis]),
+                Anchor::Fixed => block.held[axes * node + axis][lane] = N::of(place[axis]),
                 Anchor::Rigid { .. } => {}
             }
         }
     }
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
         let element = model.mesh.magnets[body].element;
-        let middle = 0.5 * (model.mesh.arc_m[element] + model.mesh.arc_m[element + 1]);
+        let middle = laid.middle(element);
         for axis in 0..axes {
-            block.q[dof + axis][lane] = N::of(place(middle, axis));
+            block.q[dof + axis][lane] = N::of(middle[axis]);
         }
         if axes == 2 {
-            block.q[dof + 2][lane] = N::of(start.angle_rad);
+            block.q[dof + 2][lane] = N::of(laid.angle_rad(element));
         }
     }
-    let up = [-(sin * yaw_cos), cos, sin * yaw_sin];
-    for element in block.director.chunks_exact_mut(6) {
+    for (element, rows) in block.director.chunks_exact_mut(6).enumerate() {
+        let (up, tangent) = (laid.up(element), laid.tangent(element));
         for axis in 0..3 {
-            element[axis][lane] = N::of(up[axis]);
-            element[3 + axis][lane] = N::of(tangent[axis]);
+            rows[axis][lane] = N::of(up[axis]);
+            rows[3 + axis][lane] = N::of(tangent[axis]);
         }
     }
-}
-
-/// How far the centre line's head end lies above the lowest contact point; 0 without ground.
-fn drop_to_lowest(model: &Model, sin: f64, cos: f64) -> f64 {
-    let below = |sole: &Sole| match *sole {
-        Sole::Foot { body, along_m, depth_m, .. } => {
-            let element = model.mesh.magnets[body].element;
-            let arc = &model.mesh.arc_m;
-            depth_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin
-        }
-        Sole::Node { node, depth_m } => depth_m - model.mesh.arc_m[node] * sin,
-    };
-    model.mesh.soles.iter().map(below).reduce(f64::max).unwrap_or(0.0)
 }
 
 /// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.

@@ -166,6 +166,12 @@ fn scalar_and_wide_lanes_give_equal_bits_in_single_precision() {
 }
 
 #[test]
+fn scalar_and_wide_lanes_give_equal_bits_for_bent_starts() {
+    lanes_agree("rolled up", 200, 3);
+    lanes_agree("twisted in space", 150, 3);
+}
+
+#[test]
 fn any_number_of_threads_gives_equal_bits() {
     let robots: Vec<u64> = (0..61).collect();
     let places: Vec<usize> = (0..61).collect();

@@ -4,7 +4,7 @@ use magworm::lanes::{InstructionSet, WIDE};
 use magworm::model::{Model, Phase};
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::scene::Scene;
-use magworm::state::{Batch, Block, LaneChoice, Status};
+use magworm::state::{Batch, Block, LaneChoice, Status, Steps};
 use magworm::step::command;
 use std::sync::Arc;
 

@@ -35,6 +35,9 @@ impl Model {
             _ => "about two axes and twisting",
         };
         line("bending", format!("{} nodes {ways}, {curvature}", self.bend.len()));
+        if let Some(shape) = &self.shape {
+            line("start", shape.explain());
+        }
         line("gravity", self.explain_gravity());
         line("ground", self.explain_ground());
         line("drive", self.explain_drive());

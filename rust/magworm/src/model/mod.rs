@@ -8,6 +8,7 @@ mod line;
 mod magnetics;
 mod mesh;
 mod phases;
+pub(crate) mod shape;
 mod waves;
 
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
@@ -16,6 +17,7 @@ pub use inertia::MassPart;
 pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use phases::Phase;
+pub use shape::Shape;
 pub use waves::Wave;
 
 use crate::drive::DriveModel;
@@ -39,6 +41,8 @@ pub struct Model {
     pub stretch: Vec<Stretch>,
     /// Bending springs; in space they twist as well.
     pub bend: Vec<Bend>,
+    /// Shape of the body at the start; none where it is straight.
+    pub shape: Option<Shape>,
     /// Contributions to the mass of each unknown.
     pub inertia: Vec<MassPart>,
     /// Unknowns that are translations, with their axis (0 for x, 1 for y, 2 for z).
@@ -179,6 +183,7 @@ impl Model {
             system,
             stretch,
             bend,
+            shape: Shape::new(scene, &mesh),
             inertia,
             phases: Phase::of(&program, &contacts),
             contacts,

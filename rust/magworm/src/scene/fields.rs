@@ -15,6 +15,9 @@ const MOST_STEPS_OF_A_WRENCH: i64 = 10_000;
 pub(super) const GREATEST_DRIVE_SPEED_M_S: f64 = 10.0;
 /// Greatest speed of yaw of a drive between waypoints [°/s].
 pub(super) const GREATEST_DRIVE_YAW_SPEED_DEG_S: f64 = 1e4;
+/// Most parts that a body is bent in at the start, and the greatest angle of each list in all [°].
+const MOST_BENT_PARTS: usize = 1000;
+pub(super) const GREATEST_BEND_DEG: f64 = 36_000.0;
 /// Most points in time of a drive that moves between waypoints.
 pub(super) const MOST_WAYPOINTS: usize = 10_000;
 
@@ -27,6 +30,8 @@ const HEIGHT: Kind = real("m", -1.0, 1.0);
 const FLUX_DENSITY: Kind = real("T", -10.0, 10.0);
 const TURN: Kind = real("°", -360.0, 360.0);
 const MANY_TURNS: Kind = real("°", -36_000.0, 36_000.0);
+const BENDS: Kind =
+    Kind::List { of: &real("°", -GREATEST_BEND_DEG, GREATEST_BEND_DEG), most: MOST_BENT_PARTS };
 const FRICTION: Kind = real("", 0.0, 10.0);
 const FACTOR: Kind = real("", 1e-3, 1e3);
 const SHORT: Kind = real("s", 1e-7, 0.05);
@@ -207,6 +212,9 @@ static START: Table = Table {
         optional("angle_deg", TURN),
         optional("z_m", POSITION),
         optional("yaw_deg", TURN),
+        optional("bends_deg", BENDS),
+        optional("bends_aside_deg", BENDS),
+        optional("twists_deg", BENDS),
     ],
 };
 
@@ -287,9 +295,9 @@ mod tests {
 
     #[test]
     fn the_structs_have_every_field_of_the_grammar() {
-        let field = ("field".into(), Some("{ x_t = 0, y_t = 0 }".parse().expect("TOML")));
         let pair = "{ kind = \"pair\", spacing_m = 0.05, second_polarity = 1 }";
         let points = "{ kind = \"waypoints\", time_s = [0], x_m = [0], y_m = [0] }";
+        let bent = "{ bends_deg = [9], bends_aside_deg = [9], twists_deg = [9] }";
         let rod =
             "{ kind = \"rod\", length_m = 1, width_m = 0.1, thickness_m = 0.01, elements = 9 }";
         for (preset, path, value) in [
@@ -299,7 +307,13 @@ mod tests {
             ("paper-3", "drive.motion", points),
             ("paper-3", "body", rod),
         ] {
-            let edits = [field.clone(), (path.into(), Some(value.parse().expect("TOML")))];
+            let edits = [
+                ("dimensions", "3"),
+                ("field", "{ x_t = 0, y_t = 0 }"),
+                ("start", bent),
+                (path, value),
+            ]
+            .map(|(path, value)| (path.into(), Some(value.parse().expect("TOML"))));
             let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
             let values = scene.and_then(|scene| Ok(scene.to_table()?)).expect("a scene");
             assert_eq!(lacking(&values, &SCENE, ""), Vec::<String>::new());

@@ -99,21 +99,37 @@ impl Default for Control {
     }
 }
 
-/// Pose of the straight body at the start.
+/// Pose and shape of the body at the start, at rest.
+///
+/// A body starts straight, or bent and twisted: its rest shape is straight, so it springs back. Each list of angles cuts
+/// the length of the body into as many equal parts, from head to tail, and turns each part by its angle in all, spread
+/// evenly over what bends in it: magnets stay straight. A clamped body bends from the wall on. Bent bodies may pass
+/// through themselves: there is no contact between parts of a body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Start {
-    /// Shift along x [m].
+    /// Place of the head end along x [m].
     pub x_m: f64,
-    /// Height of the lowest point over the ground [m].
+    /// Height of the lowest point over the ground [m]: of the contact points, and of all of a bent body; of the head end
+    /// where there are no contact points.
     pub height_m: f64,
     /// Rotation in the plane x–y about the head end, anticlockwise [°].
     pub angle_deg: f64,
-    /// Shift along z [m]; 0 in the plane.
+    /// Place of the head end along z [m]; 0 in the plane.
     pub z_m: f64,
     /// Rotation about the vertical +y through the head end, after `angle_deg`, anticlockwise seen
     /// from above [°]; 0 in the plane.
     pub yaw_deg: f64,
+    /// Bending of each part in its own plane of tangent and up, anticlockwise from head to tail: its tail turns towards its
+    /// up direction [°]. Empty: straight.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bends_deg: Vec<f64>,
+    /// Bending of each part towards its own side, which is +z of the straight body at yaw 0 [°]; 0 in the plane.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bends_aside_deg: Vec<f64>,
+    /// Twist of each part about its own tangent, which turns up towards side [°]; 0 in the plane.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub twists_deg: Vec<f64>,
 }
 
 /// What a reset draws at random, from each environment's own seed and episode.

@@ -4,49 +4,56 @@ use magworm::scene::*;
 use proptest::prelude::*;
 
 use crate::scene_strategy::dice::{Dice, dice};
-use crate::scene_strategy::{with_interval, within_the_limit};
+use crate::scene_strategy::{bends, with_interval, within_the_limit};
 
 /// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
 const RUBBER_KG_M3: f64 = 1070.0;
 
 /// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
-    (dice(16), dice(24), dice(24)).prop_map(move |(mut body, mut world, mut rest)| {
-        let (body, magnet) = robot_or_rod(&mut body, most_nodes);
-        let solver = solver(&mut rest);
-        let steps = rest.whole(1, 40) as f64;
-        let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
-        let motion = drive_motion(&mut world, dimensions);
-        let mut scene = Scene {
-            name: "extreme".into(),
-            gravity_m_s2: rest.between(0.0, 981.0),
-            dimensions,
-            body,
-            material: Material {
-                youngs_modulus_pa: rest.decades(1e3, 1e10),
-                density_kg_m3: RUBBER_KG_M3 * rest.decades(1e-3, 10.0),
-                damping_time_s: if rest.coin() { 0.0 } else { rest.decades(1e-5, 1.0) },
-                poisson_ratio: 0.5,
-            },
-            magnet: Some(magnet),
-            drive: (rest.between(0.0, 1.0) < 0.8).then(|| drive(&mut world, motion)),
-            field: None,
-            magnetic_terms: MagneticTerms::default(),
-            start: Start {
-                x_m: 0.0,
-                height_m: if rest.coin() { 0.0 } else { rest.decades(1e-4, 1.0) },
-                angle_deg: rest.one_of(&[0.0, 0.0, 30.0, 90.0, 135.0, 180.0, -60.0]),
-                z_m: 0.0,
-                yaw_deg: rest.in_space(dimensions, -180.0, 180.0),
-            },
-            ground,
-            control: Control { step_s: steps * solver.step_s, episode_s: steps * solver.step_s },
-            solver,
-            reset: Reset::default(),
-        };
-        scene.solver = with_interval(scene.solver, &scene.control, rest.whole(1, 12));
-        within_the_limit(scene)
-    })
+    let shape = dice(bends::NUMBERS);
+    (dice(16), dice(24), dice(24), shape).prop_map(
+        move |(mut body, mut world, mut rest, mut shape)| {
+            let (body, magnet) = robot_or_rod(&mut body, most_nodes);
+            let solver = solver(&mut rest);
+            let steps = rest.whole(1, 40) as f64;
+            let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
+            let motion = drive_motion(&mut world, dimensions);
+            let mut scene = Scene {
+                name: "extreme".into(),
+                gravity_m_s2: rest.between(0.0, 981.0),
+                dimensions,
+                body,
+                material: Material {
+                    youngs_modulus_pa: rest.decades(1e3, 1e10),
+                    density_kg_m3: RUBBER_KG_M3 * rest.decades(1e-3, 10.0),
+                    damping_time_s: if rest.coin() { 0.0 } else { rest.decades(1e-5, 1.0) },
+                    poisson_ratio: 0.5,
+                },
+                magnet: Some(magnet),
+                drive: (rest.between(0.0, 1.0) < 0.8).then(|| drive(&mut world, motion)),
+                field: None,
+                magnetic_terms: MagneticTerms::default(),
+                start: Start {
+                    x_m: 0.0,
+                    height_m: if rest.coin() { 0.0 } else { rest.decades(1e-4, 1.0) },
+                    angle_deg: rest.one_of(&[0.0, 0.0, 30.0, 90.0, 135.0, 180.0, -60.0]),
+                    z_m: 0.0,
+                    yaw_deg: rest.in_space(dimensions, -180.0, 180.0),
+                    ..Start::default()
+                },
+                ground,
+                control: Control {
+                    step_s: steps * solver.step_s,
+                    episode_s: steps * solver.step_s,
+                },
+                solver,
+                reset: Reset::default(),
+            };
+            scene.solver = with_interval(scene.solver, &scene.control, rest.whole(1, 12));
+            within_the_limit(bends::bend(scene, &mut shape))
+        },
+    )
 }
 
 /// The paper's robot, or a rod with two magnets, as thin or thick as a scene allows.

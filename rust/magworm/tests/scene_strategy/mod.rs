@@ -1,5 +1,6 @@
 //! Random valid scenes: the whole space that validation admits, its corners included.
 
+pub mod bends;
 mod body;
 pub mod dice;
 mod drive;
@@ -20,7 +21,8 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
     let field =
         prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
-    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}")
+    let shape = dice(bends::NUMBERS);
+    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}", shape)
         .prop_map(
             move |(
                 (body, magnet),
@@ -31,9 +33,10 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 mut rest,
                 mut reset,
                 name,
+                mut shape,
             )| {
                 let control = control(&mut time, &solver);
-                Scene {
+                let scene = Scene {
                     name,
                     gravity_m_s2: rest.between(0.0, 981.0),
                     dimensions,
@@ -48,7 +51,8 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     solver: with_interval(solver, &control, time.whole(1, 12)),
                     control,
                     reset: random_reset(&mut reset),
-                }
+                };
+                bends::bend(scene, &mut shape)
             },
         )
         .prop_map(within_the_limit)
@@ -139,6 +143,7 @@ fn start(dice: &mut Dice, on_ground: bool, dimensions: usize) -> Start {
         angle_deg: dice.between(-360.0, 360.0),
         z_m: dice.in_space(dimensions, -10.0, 10.0),
         yaw_deg: dice.in_space(dimensions, -360.0, 360.0),
+        ..Start::default()
     }
 }
 

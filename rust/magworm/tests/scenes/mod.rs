@@ -183,6 +183,18 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ),
         ],
     ),
+    ("rolled up", "paper-4", &[("start.bends_deg", "[150, 0, 270]")]),
+    (
+        "twisted in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("start.bends_deg", "[40, -60]"),
+            ("start.bends_aside_deg", "[90]"),
+            ("start.twists_deg", "[-100, 300, 100]"),
+        ],
+    ),
 ];
 
 /// The model of a scene; its name is that of the list.

@@ -4,6 +4,7 @@ mod body;
 mod drive;
 mod rod;
 mod space;
+mod start;
 mod time;
 
 use super::Scene;
@@ -16,6 +17,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     surroundings(scene)?;
     drive::check(scene)?;
     space::check(scene)?;
+    start::check(scene)?;
     time::check(scene)
 }
 

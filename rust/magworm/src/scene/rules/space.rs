@@ -11,6 +11,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     }
     flat("start.z_m", scene.start.z_m, "m")?;
     flat("start.yaw_deg", scene.start.yaw_deg, "°")?;
+    all_flat("start.bends_aside_deg", &scene.start.bends_aside_deg, "°")?;
+    all_flat("start.twists_deg", &scene.start.twists_deg, "°")?;
     flat("field.z_t", scene.field.as_ref().map_or(0.0, |field| field.z_t), "T")?;
     scene.drive.as_ref().map_or(Ok(()), |drive| motion(&drive.motion))
 }
