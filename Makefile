@@ -24,7 +24,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs identify test bench count count-write wheel lint format docs clean install \
+.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs study-peak identify test bench count count-write wheel lint format docs clean install \
 	lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	count-program need-cargo need-python need-rust-checks need-valgrind force
 
@@ -56,6 +56,10 @@ study-growth: install-test  ## how cost grows with environments, nodes, magnets:
 
 study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
 	$(VENV_PYTHON) -m studies.needs
+
+study-peak: need-valgrind install-test count-program  ## arithmetic of a step against the core's peak: docs/peak.md
+	cargo build --release --package magworm-py --example peak
+	$(VENV_PYTHON) -m studies.peak
 
 study-stability: install-test  ## stiff and extreme scenes, the explicit scheme's largest step: docs/stability.md
 	$(VENV_PYTHON) -m studies.stability

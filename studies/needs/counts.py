@@ -95,9 +95,13 @@ def write(counted: Mapping[str, float]) -> None:
         rows.writerows([task, f"{value:.1f}", compiler()] for task, value in counted.items())
 
 
+def environment() -> dict[str, str]:
+    """Variables under which instructions are counted."""
+    return {**os.environ, "GLIBC_TUNABLES": TUNABLES}
+
+
 def _output(command: list[str]) -> str:
-    environment = {**os.environ, "GLIBC_TUNABLES": TUNABLES}
-    run = subprocess.run(command, capture_output=True, text=True, env=environment)
+    run = subprocess.run(command, capture_output=True, text=True, env=environment())
     if run.returncode:
         sys.exit(run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f"{command[0]} failed")
     return run.stdout

@@ -11,23 +11,18 @@
 //! An example of this package since the extension's own build of the simulator then serves it as well.
 
 mod cases;
+mod robots;
 mod wrench;
 
 use cases::{CASES, Case, Work};
 use magworm::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
 use magworm::model::{Model, Phase};
 use magworm::observe;
-use magworm::reset::{Draws, reset, scene_start};
 use magworm::scene::Precision;
 use magworm::state::{Batch, Block, LaneChoice, StepOutput, Steps};
-use magworm::step::command;
+use robots::{BEFORE, CONTROL_STEPS, act, action, start};
 use std::process::ExitCode;
 use std::sync::Arc;
-
-/// Control steps before anything is counted: the robots land and begin to crawl.
-const BEFORE: u64 = 15;
-/// Control steps that are counted.
-const CONTROL_STEPS: u64 = 25;
 
 /// The function that collects.
 #[inline(never)]
@@ -96,12 +91,6 @@ fn avx2() -> Result<InstructionSet, String> {
     found.ok_or_else(|| format!("instruction set is {}; allowed: AVX2", sets[0].name()))
 }
 
-/// The action of a robot in a control step; each is held for four.
-fn action(robot: usize, control_step: u64) -> [f64; 5] {
-    let mut draws = Draws::new(robot as u64, 1000 + control_step / 4);
-    std::array::from_fn(|_| draws.uniform(-1.0, 1.0))
-}
-
 /// Solver steps of a block of W robots, each with actions of its own. `phase`: all if none.
 fn block<const W: usize, N: Number>(
     model: &Model,
@@ -118,19 +107,9 @@ where
             Some(*found.ok_or_else(|| format!("phase is {name:?}; allowed: those of the task"))?)
         }
     };
-    let mut block = Block::<W, N>::new(model);
-    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
-    let factors = [1.0; Model::PARAMETERS.len()];
-    for lane in 0..W {
-        let draws = Draws::new(lane as u64, 0);
-        reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
-    }
+    let mut block = start::<W, N>(model, 0, W);
     for control_step in 0..BEFORE + CONTROL_STEPS {
-        if let Some(drive) = &model.program.drive {
-            for lane in 0..W {
-                command(model, drive, &mut block, lane, &action(lane, control_step));
-            }
-        }
+        act(model, &mut block, 0, W, control_step);
         let steps = model.steps_per_control;
         if control_step < BEFORE {
             block.advance_on(set, model, steps);

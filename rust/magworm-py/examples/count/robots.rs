@@ -1,0 +1,48 @@
+//! Robots of a scene that act at random.
+
+use magworm::lanes::Number;
+use magworm::model::Model;
+use magworm::reset::{Draws, reset, scene_start};
+use magworm::state::Block;
+use magworm::step::command;
+
+/// Control steps before anything is counted: the robots land and begin to crawl.
+pub const BEFORE: u64 = 15;
+/// Control steps that are counted.
+pub const CONTROL_STEPS: u64 = 25;
+
+/// The action of a robot in a control step; each is held for four.
+pub fn action(robot: usize, control_step: u64) -> [f64; 5] {
+    let mut draws = Draws::new(robot as u64, 1000 + control_step / 4);
+    std::array::from_fn(|_| draws.uniform(-1.0, 1.0))
+}
+
+/// Robots at the start pose of their scene, from robot `first` on; so many are different, and more lanes repeat them.
+pub fn start<const W: usize, N: Number>(
+    model: &Model,
+    first: usize,
+    different: usize,
+) -> Block<W, N> {
+    let mut block = Block::new(model);
+    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let factors = [1.0; Model::PARAMETERS.len()];
+    for lane in 0..W {
+        let draws = Draws::new(((first + lane) % different) as u64, 0);
+        reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
+    }
+    block
+}
+
+/// Gives each of these robots its action of a control step.
+pub fn act<const W: usize, N: Number>(
+    model: &Model,
+    block: &mut Block<W, N>,
+    first: usize,
+    different: usize,
+    control_step: u64,
+) {
+    let Some(drive) = &model.program.drive else { return };
+    for lane in 0..W {
+        command(model, drive, block, lane, &action((first + lane) % different, control_step));
+    }
+}
