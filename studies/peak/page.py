@@ -305,8 +305,8 @@ def _trials(results: Results) -> str:
 *A robot*: time for each lane, beside that of eight lanes on {first}. Sixteen lanes are two blocks in one,
 operation by operation: what waits in one has work of the other beside it, and addresses and branches serve
 both. A second block would cost nothing if those were all that took time, and as much as the first if vector
-instructions were; it costs {twin["plane"]:.0%} of the first in the plane and {twin["space"]:.0%} in space.
-One lane has the chains of eight, with plain numbers.
+instructions were, or more where registers run out; it costs {twin["plane"]:.0%} of the first in the plane and
+{twin["space"]:.0%} in space. One lane has the chains of eight, with plain numbers.
 
 {table(header, rows)}{narrow}"""
 
