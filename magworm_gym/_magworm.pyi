@@ -105,7 +105,7 @@ class Batch:
     def __new__(
         cls, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None
     ) -> Batch:
-        """lanes: "wide" (8 per block, 16 in single precision) or "scalar"; equal bits. threads: None for all cores."""
+        """lanes: "wide" (8 a block, single precision 16) or "scalar"; equal bits. threads: None: all cores."""
     @property
     def scene(self) -> Scene: ...
     @property
