@@ -105,7 +105,7 @@ class Batch:
     def __new__(
         cls, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None
     ) -> Batch:
-        """lanes: "wide" (8 a block, single precision 16) or "scalar"; equal bits. threads: None: all cores."""
+        """lanes: "wide" (8, single precision 16) or "scalar"; equal bits. threads: None: all."""
     @property
     def scene(self) -> Scene: ...
     @property
