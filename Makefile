@@ -98,8 +98,9 @@ format: need-rust-checks install-test  ## format Rust and Python, mend what ruff
 	$(VENV_PYTHON) -m ruff check --fix .
 	$(VENV_PYTHON) -m ruff format .
 
-docs: install-test  ## write the tables of README.md that come from the simulator
+docs: install-test  ## write the tables of README.md that come from the simulator and from docs/results/
 	$(VENV_PYTHON) docs/spaces.py README.md
+	$(VENV_PYTHON) docs/results.py README.md
 
 clean:  ## remove everything that was built or installed; results in runs/ stay
 	rm -rf $(VENV) target dist .pytest_cache .mypy_cache .ruff_cache magworm_gym/_magworm*.so
@@ -133,6 +134,7 @@ test-nightly: need-cargo  ## 100,000 random extreme scenes
 test-docs: need-cargo install-test  ## cargo doc, tables of README.md
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm
 	$(VENV_PYTHON) docs/spaces.py --check README.md
+	$(VENV_PYTHON) docs/results.py --check README.md
 
 test-wheel: wheel  ## the wheel in an empty environment: needs numpy and gymnasium only
 	rm -rf $(WHEEL_VENV)

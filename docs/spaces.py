@@ -11,11 +11,11 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from blocks import write_or_check
+
 from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID, MagWormVectorEnv
 from magworm_gym.registration import ARGUMENTS
 from magworm_gym.spaces import AnyPart
-
-BEGIN, END = "<!-- spaces -->", "<!-- /spaces -->"
 
 
 def tables() -> str:
@@ -97,19 +97,7 @@ def main() -> int:
     parser.add_argument("file", type=Path)
     parser.add_argument("--check", action="store_true", help="only compare")
     flags = parser.parse_args()
-    text = flags.file.read_text(encoding="utf-8")
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end:
-        print(f"{flags.file} lacks the lines {BEGIN} and {END}", file=sys.stderr)
-        return 1
-    fresh = f"{before}{BEGIN}\n{tables()}\n{END}{after}"
-    if flags.check and fresh != text:
-        print(f"the tables in {flags.file} are out of date: run 'make docs'", file=sys.stderr)
-        return 1
-    if not flags.check:
-        flags.file.write_text(fresh, encoding="utf-8")
-    return 0
+    return write_or_check(flags.file, {"spaces": tables()}, check=flags.check)
 
 
 if __name__ == "__main__":
