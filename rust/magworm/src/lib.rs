@@ -20,6 +20,8 @@
 //! | [`share`] | what each phase of a step costs |
 //! | [`observe`], [`reset`] | observations and actions; initial states |
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod contact;
 pub mod drive;
 pub mod elastic;

@@ -6,7 +6,7 @@ use laid::{Bent, Laid, Straight};
 
 use crate::drive::{DriveModel, Path, StageModel, stage_axes};
 use crate::lanes::Number;
-use crate::lanes::math::sin_cos;
+use crate::lanes::math::{radians, sin_cos};
 use crate::model::{Anchor, Model};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
@@ -60,9 +60,9 @@ pub fn scene_start(model: &Model) -> StartPose {
     StartPose {
         x_m: start.x_m,
         height_m: start.height_m,
-        angle_rad: start.angle_deg.to_radians(),
+        angle_rad: radians(start.angle_deg),
         z_m: start.z_m,
-        yaw_rad: start.yaw_deg.to_radians(),
+        yaw_rad: radians(start.yaw_deg),
     }
 }
 

@@ -6,6 +6,7 @@ mod stage;
 pub use belt::Layout;
 pub use stage::StageModel;
 
+use crate::lanes::math::radians;
 use crate::scene::{Drive, Motion, Reference};
 
 /// How the drive's magnets stand and move; heights are of their centres.
@@ -54,23 +55,23 @@ impl DriveModel {
             Motion::Controlled(limits) => Path::Controlled(StageModel {
                 reach_m: limits.reach_m,
                 lateral_reach_m: limits.lateral_reach_m,
-                yaw_reach_rad: limits.yaw_reach_deg.to_radians(),
+                yaw_reach_rad: radians(limits.yaw_reach_deg),
                 lowest_m: limits.lowest_m + centre_m,
                 highest_m: limits.highest_m + centre_m,
                 speed_m_s: limits.speed_m_s,
                 acceleration_m_s2: limits.acceleration_m_s2,
-                yaw_speed_rad_s: limits.yaw_speed_deg_s.to_radians(),
-                yaw_acceleration_rad_s2: limits.yaw_acceleration_deg_s2.to_radians(),
+                yaw_speed_rad_s: radians(limits.yaw_speed_deg_s),
+                yaw_acceleration_rad_s2: radians(limits.yaw_acceleration_deg_s2),
             }),
             Motion::Constant { x_m, y_m, speed_m_s, z_m, yaw_deg } => Path::Constant {
-                start: [*x_m, y_m + centre_m, *z_m, yaw_deg.to_radians()],
+                start: [*x_m, y_m + centre_m, *z_m, radians(*yaw_deg)],
                 speed_m_s: *speed_m_s,
             },
             Motion::Waypoints { time_s, x_m, y_m, z_m, yaw_deg } => {
                 // An axis that is left out stays at 0.
                 let at = |axis: &[f64], k: usize| axis.get(k).copied().unwrap_or(0.0);
                 let point = |k: usize| {
-                    let yaw = at(yaw_deg, k).to_radians();
+                    let yaw = radians(at(yaw_deg, k));
                     [x_m[k], y_m[k] + centre_m, at(z_m, k), yaw]
                 };
                 let point = (0..time_s.len()).map(point).collect();

@@ -143,6 +143,16 @@ pub fn atan2<F: Real>(y: F, x: F) -> F {
     (k * F::Number::EIGHTH_TURN[0] + (t + tail)).copysign(y)
 }
 
+/// An angle in radians: one product, rounded once.
+pub fn radians(angle_deg: f64) -> f64 {
+    angle_deg * (std::f64::consts::PI / 180.0)
+}
+
+/// An angle in degrees: one product, rounded once.
+pub fn degrees(angle_rad: f64) -> f64 {
+    angle_rad * (180.0 / std::f64::consts::PI)
+}
+
 /// Arctangent in [−π/2, π/2] of a finite number.
 #[inline(always)]
 pub fn atan<F: Real>(x: F) -> F {

@@ -63,9 +63,9 @@ impl PlanarDipole {
         let (sin, cos) = sin_cos(angle_rad);
         let point = PlanarDipole::new(drive, body).wrench(dx_m, dy_m, cos, sin, 1.0);
         let exact = PlanarPair::new(drive, body, MAX_ORDER).wrench(dx_m, dy_m, cos, sin, 1.0);
-        let force = exact[0].hypot(exact[1]);
-        let arm = dx_m.hypot(dy_m);
-        let force_error = (point[0] - exact[0]).hypot(point[1] - exact[1]) / force;
+        let length = |x: f64, y: f64| (x * x + y * y).sqrt();
+        let (force, arm) = (length(exact[0], exact[1]), length(dx_m, dy_m));
+        let force_error = length(point[0] - exact[0], point[1] - exact[1]) / force;
         let torque_error = (point[2] - exact[2]).abs() / (exact[2].abs() + force * arm);
         force_error.max(torque_error)
     }
@@ -120,7 +120,7 @@ impl SpatialDipole {
 pub fn dipole_field_t(moment_t_m3: Vector3<f64>, position_m: Vector3<f64>) -> Vector3<f64> {
     let r = position_m.norm();
     let e = position_m / r;
-    (e * (3.0 * moment_t_m3.dot(&e)) - moment_t_m3) / (4.0 * std::f64::consts::PI * r.powi(3))
+    (e * (3.0 * moment_t_m3.dot(&e)) - moment_t_m3) / (4.0 * std::f64::consts::PI * (r * r * r))
 }
 
 /// Wrench of one dipole on another (Yung, Landecker & Villani 1998), with the moments `drive` and `body`
@@ -135,7 +135,7 @@ pub fn dipole_wrench(
     let (along_drive, along_body) = (drive.dot(&e), body.dot(&e));
     let bracket = drive * along_body + body * along_drive + e * drive.dot(&body)
         - e * (5.0 * along_drive * along_body);
-    let scale = 3.0 / (4.0 * std::f64::consts::PI * super::MU_0 * r.powi(4));
+    let scale = 3.0 / (4.0 * std::f64::consts::PI * super::MU_0 * (r * r * r * r));
     super::Wrench {
         force_n: bracket * scale,
         torque_n_m: body.cross(&dipole_field_t(drive, position_m)) / super::MU_0,

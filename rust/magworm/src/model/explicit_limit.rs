@@ -86,9 +86,10 @@ impl ExplicitLimit {
     }
 }
 
-/// To three digits, so that what a message says is itself allowed.
+/// Cut to three digits, so that what a message says is itself allowed.
 fn rounded_down(step_s: f64) -> f64 {
-    let digit = 10f64.powf(step_s.log10().floor() - 2.0);
-    let text = format!("{:.2e}", (step_s / digit).floor() * digit);
-    text.parse().unwrap_or(step_s)
+    let text = format!("{step_s:e}");
+    let (digits, exponent) = text.split_once('e').expect("a number in scientific notation");
+    let digits = &digits[..digits.len().min(4)];
+    format!("{digits}e{exponent}").parse().expect("digits and an exponent")
 }

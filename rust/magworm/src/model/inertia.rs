@@ -53,7 +53,7 @@ fn rubber(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<f64> {
         add_point(&mut rubber, coordinates, scene, e, share * density * solid_m3);
         add_point(&mut rubber, coordinates, scene, e + 1, share * density * solid_m3);
         if let Some(dof) = coordinates.twists[e] {
-            let gyration_m2 = (element.thickness_m.powi(2) + mesh.width_m.powi(2)) / 12.0;
+            let gyration_m2 = gyration_m2(element.thickness_m, mesh.width_m);
             rubber[dof] += density * volume_m3 * gyration_m2;
         }
     }
@@ -103,15 +103,14 @@ fn body_parts(
         magnet: magnet_kg * gyration_m2,
         fill: fill_kg * gyration_m2,
     };
-    // Squares of the radii of gyration about an axis: the rubber's length is in its points.
-    let squares = |a: f64, b: f64| (a.powi(2) + b.powi(2)) / 12.0;
-    let about_side = (squares(thickness_m, 0.0), squares(magnet.length_m, magnet.height_m));
+    // About an axis: the rubber's length is in its points.
+    let about_side = (gyration_m2(thickness_m, 0.0), gyration_m2(magnet.length_m, magnet.height_m));
     let rotations = if coordinates.dimensions == 2 {
         vec![about_side]
     } else {
         vec![
-            (squares(thickness_m, width_m), squares(magnet.height_m, magnet.width_m)),
-            (squares(width_m, 0.0), squares(magnet.length_m, magnet.width_m)),
+            (gyration_m2(thickness_m, width_m), gyration_m2(magnet.height_m, magnet.width_m)),
+            (gyration_m2(width_m, 0.0), gyration_m2(magnet.length_m, magnet.width_m)),
             about_side,
         ]
     };
@@ -122,6 +121,11 @@ fn body_parts(
         .enumerate()
         .map(|(k, (rubber, magnet))| part(first + k, around_kg * rubber, magnet));
     translations.chain(rotations).collect()
+}
+
+/// Square of the radius of gyration of a rectangle with these edges.
+fn gyration_m2(a_m: f64, b_m: f64) -> f64 {
+    (a_m * a_m + b_m * b_m) / 12.0
 }
 
 fn magnet_volume_m3(scene: &Scene) -> f64 {

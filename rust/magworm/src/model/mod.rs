@@ -22,7 +22,7 @@ pub use waves::Wave;
 
 use crate::drive::DriveModel;
 use crate::lanes::chain::Chain;
-use crate::lanes::math::sin_cos;
+use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
 use crate::scene::{Ground, Integrator, Parameter, Scene, SceneError};
 
@@ -246,7 +246,7 @@ impl Program {
 }
 
 fn gravity(scene: &Scene) -> [f64; 3] {
-    let incline = scene.ground.as_ref().map_or(0.0, |g| g.incline_deg.to_radians());
+    let incline = scene.ground.as_ref().map_or(0.0, |g| radians(g.incline_deg));
     let (sin, cos) = sin_cos(incline);
     [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos, 0.0]
 }
@@ -319,8 +319,8 @@ fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
         };
         1.0 / (compliance(node - 1) + compliance(node))
     };
-    let up = |h: f64| modulus_pa * (width_m * h.powi(3) / 12.0);
-    let across = |h: f64| modulus_pa * (h * width_m.powi(3) / 12.0);
+    let up = |h: f64| modulus_pa * (width_m * cube(h) / 12.0);
+    let across = |h: f64| modulus_pa * (h * cube(width_m) / 12.0);
     let twist = |h: f64| shear_modulus_pa * torsion_constant_m4(width_m, h);
     (1..mesh.elements.len())
         .map(|node| Bend {
@@ -338,7 +338,12 @@ fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
 pub fn torsion_constant_m4(width_m: f64, thickness_m: f64) -> f64 {
     let (b, h) = (width_m.max(thickness_m), width_m.min(thickness_m));
     let slender = h / b;
-    b * h.powi(3) * (1.0 / 3.0 - 0.21 * slender * (1.0 - slender.powi(4) / 12.0))
+    let square = slender * slender;
+    b * cube(h) * (1.0 / 3.0 - 0.21 * slender * (1.0 - square * square / 12.0))
+}
+
+fn cube(x: f64) -> f64 {
+    x * x * x
 }
 
 fn contact_points(soles: &[Sole], coordinates: &Coordinates, system: &Chain) -> Vec<Contact> {

@@ -13,7 +13,7 @@
 //! halves: κ₁ = ½ φ n·(s_e + s_f), κ₂ = −½ φ n·(u_e + u_f).
 
 use super::Mesh;
-use crate::lanes::math::sin_cos;
+use crate::lanes::math::{degrees, radians, sin_cos};
 use crate::scene::Scene;
 use nalgebra::Vector3;
 
@@ -47,7 +47,7 @@ impl Shape {
     /// How far the body is bent, for a person.
     pub fn explain(&self) -> String {
         let greatest = |of: &dyn Fn([f64; 3]) -> f64| {
-            self.strains.iter().map(|&strain| of(strain).to_degrees()).fold(0.0, f64::max)
+            self.strains.iter().map(|&strain| degrees(of(strain))).fold(0.0, f64::max)
         };
         let (angle, twist) = (greatest(&angle_rad), greatest(&|[_, _, twist]| twist.abs()));
         format!("bent by up to {angle:.1}° and twisted by up to {twist:.1}° at a node")
@@ -122,7 +122,7 @@ fn spread_rad(mesh: &Mesh, list_deg: &[f64]) -> Vec<f64> {
         let whole_m: f64 = lengths_m.iter().sum();
         for (node_rad, length_m) in nodes_rad.iter_mut().zip(lengths_m) {
             if length_m > 0.0 {
-                *node_rad += angle_deg.to_radians() * (length_m / whole_m);
+                *node_rad += radians(*angle_deg) * (length_m / whole_m);
             }
         }
     }

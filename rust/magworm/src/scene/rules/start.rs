@@ -5,6 +5,7 @@ use super::super::fields::GREATEST_BEND_DEG;
 use super::super::schema::quantity;
 use super::super::{Scene, Start};
 use super::{require, rounded};
+use crate::lanes::math::degrees;
 use crate::model::Mesh;
 use crate::model::shape::{angle_rad, bending_lengths_m, strains};
 
@@ -58,9 +59,9 @@ fn parts(mesh: &Mesh, (field, list_deg): List<'_>) -> Result<(), Problem> {
 /// The strains of all lists at a node, the `place`-th that bends.
 fn node(mesh: &Mesh, lists: &[List<'_>; 3], place: usize, strain: [f64; 3]) -> Result<(), Problem> {
     let [_, _, twist] = strain;
-    let twist_deg = twist.abs().to_degrees();
+    let twist_deg = degrees(twist.abs());
     at_node(mesh, &lists[2..], place, twist_deg, "a twist")?;
-    at_node(mesh, &lists[..2], place, angle_rad(strain).to_degrees(), "an angle")
+    at_node(mesh, &lists[..2], place, degrees(angle_rad(strain)), "an angle")
 }
 
 fn at_node(
