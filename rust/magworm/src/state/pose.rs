@@ -4,7 +4,7 @@ use super::block::Block;
 use crate::lanes::Number;
 use crate::lanes::math::{atan2, sin_cos};
 use crate::model::{Anchor, Model};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// Pose of a body magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ impl<const W: usize, N: Number> Block<W, N> {
         let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
         let position_m = self.vector(&self.q, dof, axes, lane);
         let orientation = if axes == 2 {
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.q[dof + 2][lane].f64())
+            about_z(self.q[dof + 2][lane].f64())
         } else {
             let element = model.mesh.magnets[magnet].element;
             let up = self.vector(&self.director, 6 * element, 3, lane);
@@ -145,4 +145,10 @@ impl<const W: usize, N: Number> Block<W, N> {
         let component = |k: usize| if k < axes { rows[first + k][lane].f64() } else { 0.0 };
         Vector3::new(component(0), component(1), component(2))
     }
+}
+
+/// The rotation about z by an angle [rad].
+fn about_z(angle_rad: f64) -> UnitQuaternion<f64> {
+    let (sin, cos) = sin_cos(0.5 * angle_rad);
+    UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, Vector3::z() * sin))
 }
