@@ -16,9 +16,11 @@ __all__ = [
     "Trajectories",
     "__version__",
     "_rebuild_batch",
+    "atan2",
     "cuboid_field",
     "cuboid_wrench",
     "record_scenes",
+    "sin_cos",
 ]
 
 __version__: str
@@ -205,6 +207,10 @@ class Trajectories:
 def _rebuild_batch(scene: Scene, num_envs: int, lanes: str, threads: int | None, state: bytes) -> Batch:
     """Makes a batch again from what Batch.__reduce__ kept."""
 
+def atan2(y: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angles of the vectors (x, y) from -π to π [rad], the same bits on every platform; NumPy's are not. Raises
+    ValueError for two shapes."""
+
 def cuboid_field(
     size_m: Sequence[float], magnetisation_t: NDArray[np.float64], points_m: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -236,3 +242,6 @@ def record_scenes(
     (T, M, 3 or 7), drive positions (T, D, 2 or 4), nodes (T, K, 2 or 3; K is 0 where they are not asked
     for), each as Batch gives them, status at the end. A controlled drive stands still. Raises ValueError
     for times that are no whole number of steps."""
+
+def sin_cos(angle_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sines and cosines of angles of up to 1000 rad in magnitude, the same bits on every platform; NumPy's are not."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene, Specification
+from magworm_gym._magworm import Batch, Scene, Specification, sin_cos
 from magworm_gym.spaces import Part
 from magworm_gym.tasks.task import (
     MM_PER_M,
@@ -60,11 +60,11 @@ class Reach(Task):
         """See the class."""
         distance = NEAREST_M + (FURTHEST_M - NEAREST_M) * drawn[:, 0]
         aside = np.deg2rad(WIDEST_DEG) * (2.0 * drawn[:, 1] - 1.0)
-        drawn_m = distance[:, None] * np.stack([-np.cos(aside), np.sin(aside)], axis=1)
+        sine, cosine = sin_cos(aside)
+        drawn_m = distance[:, None] * np.stack([-cosine, sine], axis=1)
         x, z = np.where(np.isnan(asked), drawn_m, asked).T.copy()
         poses = batch.robot_poses()
-        heading = poses[:, 2].copy()
-        cos, sin = np.cos(heading), np.sin(heading)
+        sin, cos = sin_cos(poses[:, 2])
         goal_m = poses[:, :2] + np.stack([x * cos + z * sin, z * cos - x * sin], axis=1)
         self.state["goal_m"] = np.where(mask[:, None], goal_m, self.state["goal_m"])
         self.state["distance_m"] = np.where(mask, self._distance_m(poses), self.state["distance_m"])
@@ -81,9 +81,8 @@ class Reach(Task):
         """See the class."""
         poses = batch.robot_poses()
         x, z = (self.state["goal_m"] - poses[:, :2]).T.copy()
-        heading = poses[:, 2].copy()
-        cos, sin = np.cos(heading), np.sin(heading)
-        seen = np.stack([x * cos - z * sin, x * sin + z * cos, np.hypot(x, z)], axis=1)
+        sin, cos = sin_cos(poses[:, 2])
+        seen = np.stack([x * cos - z * sin, x * sin + z * cos, np.sqrt(x * x + z * z)], axis=1)
         return np.asarray(seen / self._unit_m)
 
     def reset_infos(self) -> dict[str, NDArray[np.float64]]:

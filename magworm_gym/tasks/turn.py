@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene, Specification
+from magworm_gym._magworm import Batch, Scene, Specification, atan2, sin_cos
 from magworm_gym.spaces import Part
 from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Seen, Task, Verdict
 
@@ -82,7 +82,8 @@ class Turn(Task):
     def observe(self, batch: Seen) -> Floats:
         """See the class."""
         error = self.error_rad
-        return np.stack([np.cos(error), np.sin(error), error / np.pi], axis=1)
+        sine, cosine = sin_cos(error)
+        return np.stack([cosine, sine, error / np.pi], axis=1)
 
     def reset_infos(self) -> dict[str, NDArray[np.float64]]:
         """See the class."""
@@ -106,6 +107,6 @@ def _furthest_roll(batch: Seen) -> tuple[Floats, Flags]:
     w, x, y, z = np.moveaxis(batch.magnet_poses()[..., 3:], -1, 0).copy()
     up_y, side_y = 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
     present = batch.magnets_present()
-    roll = np.where(present, np.arctan2(-side_y, up_y), 0.0)
+    roll = np.where(present, atan2(-side_y, up_y), 0.0)
     furthest = np.abs(roll).argmax(axis=1)[:, None]
     return np.take_along_axis(roll, furthest, axis=1)[:, 0], (present & (up_y < 0.0)).any(axis=1)

@@ -1,5 +1,8 @@
 //! Python bindings: thin, no physics. Long work releases the interpreter's lock.
 
+#![deny(clippy::disallowed_methods)]
+
+mod angles;
 mod arrays;
 mod batch;
 mod errors;
@@ -14,6 +17,8 @@ use pyo3::prelude::*;
 /// The compiled simulator.
 #[pymodule]
 mod _magworm {
+    #[pymodule_export]
+    use crate::angles::{atan2, sin_cos};
     #[pymodule_export]
     use crate::batch::{_rebuild_batch, Batch};
     #[pymodule_export]
