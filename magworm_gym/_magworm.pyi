@@ -40,8 +40,13 @@ class Scene:
     def preset(name: str) -> Scene:
         """One of PRESETS. Raises SceneError."""
     def with_values(self, values: Mapping[str, Any]) -> Scene:
-        """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}. A mapping
-        replaces a whole table, None removes an optional one. Raises SceneError."""
+        """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}, or
+        {"body.segment[2].thickness_m": 0.006} in a list, counted from 0. A mapping replaces a whole
+        table, None removes an optional one. Raises SceneError."""
+    def in_segments(self) -> Scene:
+        """The same scene with its body as a list of segments, to be changed one by one. It gives the same
+        trajectories, bit for bit, but for clamped rods that hold magnets; observations are scaled by the
+        mean pitch of the magnets."""
     def to_toml(self) -> str: ...
     def explain(self, *, measure: bool = False) -> str:
         """Terms compiled into the model, and those left out with the reason. With measure also the share
@@ -78,8 +83,11 @@ class Scene:
         lateral_reach_m, yaw_reach_deg, yaw_speed_deg_s, yaw_acceleration_deg_s2."""
     @property
     def geometry(self) -> dict[str, Any]:
-        """Sizes for drawing: node_thickness_m (K), element_thickness_m (K − 1), magnet_size_m (length,
-        height), polarity (M), drive_size_m (length, height), ground (bool), incline_deg."""
+        """Sizes for drawing: node_thickness_m (K), element_thickness_m and element_width_m (K − 1),
+        magnet_size_m (M, 3): length, height, width; magnet_offset_m (M, 3): centre from that of its
+        body, along it, up and to its side; magnet_direction (M, 3): of the remanence, along the same;
+        polarity (M): −1 straight down, else 1; drive_size_m (length, height), drive_width_m, ground
+        (bool), incline_deg."""
     def __reduce__(self) -> tuple[Any, ...]: ...
     def __eq__(self, other: object, /) -> bool: ...
 

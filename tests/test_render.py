@@ -19,8 +19,9 @@ from magworm_gym.render.race import race_frames
 WIDTH, HEIGHT, SPAN_M, HORIZON = 640, 360, 0.16, 0.4
 GEOMETRY: dict[str, Any] = {
     "node_thickness_m": np.full(28, 0.007),
-    "magnet_size_m": (0.010, 0.003),
-    "polarity": np.array([1.0, -1.0, 1.0]),
+    "magnet_size_m": np.full((3, 3), (0.010, 0.003, 0.010)),
+    "magnet_direction": np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]]),
+    "magnet_offset_m": np.zeros((3, 3)),
     "drive_size_m": (0.040, 0.005),
     "ground": True,
     "incline_deg": 0.0,
@@ -67,10 +68,20 @@ def test_frame_is_a_fresh_picture() -> None:
 @pytest.mark.parametrize(("angle", "turned"), [(0.0, 1.0), (np.pi, -1.0)])
 def test_poles_have_their_colours(angle: float, turned: float) -> None:
     frame = draw(view(), angle)
-    for x, polarity in zip(MAGNET_X_M, GEOMETRY["polarity"], strict=True):
+    for x, polarity in zip(MAGNET_X_M, GEOMETRY["magnet_direction"][:, 1], strict=True):
         upper, lower = (NORTH, SOUTH) if polarity * turned > 0 else (SOUTH, NORTH)
         assert pixel(frame, x, 0.0035 + 0.0008) == upper
         assert pixel(frame, x, 0.0035 - 0.0008) == lower
+
+
+def test_magnets_have_their_own_size_direction_and_place() -> None:
+    """The second is longer and points towards the tail, the third lies higher."""
+    size, offset = np.array(GEOMETRY["magnet_size_m"]), np.array(GEOMETRY["magnet_offset_m"])
+    direction = np.array(GEOMETRY["magnet_direction"])
+    size[1, 0], direction[1], offset[2, 1] = 0.014, (1.0, 0.0, 0.0), 0.0015
+    frame = draw(view(magnet_size_m=size, magnet_direction=direction, magnet_offset_m=offset))
+    assert pixel(frame, 0.006, 0.0035) == NORTH and pixel(frame, -0.006, 0.0035) == SOUTH
+    assert pixel(frame, 0.020, 0.0042) == SOUTH and pixel(frame, 0.020, 0.0058) == NORTH
 
 
 def test_drive_has_its_north_pole_up() -> None:

@@ -64,6 +64,19 @@ def band(
     return np.concatenate([line + half[:, None] * normals, (line - half[:, None] * normals)[::-1]])
 
 
+def half(outline: NDArray[np.float64], direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The part of a convex outline (P, 2) from the mean of its corners towards ``direction`` (2,)."""
+    heights = (outline - outline.mean(axis=0)) @ direction
+    corners = []
+    for k in range(len(outline)):
+        here, there = heights[k - 1], heights[k]
+        if (here < 0.0) != (there < 0.0):
+            corners.append(outline[k - 1] + (outline[k] - outline[k - 1]) * (here / (here - there)))
+        if there >= 0.0:
+            corners.append(outline[k])
+    return np.array(corners).reshape(-1, 2)
+
+
 def rectangle(
     x: float, y: float, angle: float, length: float, bottom: float, top: float
 ) -> NDArray[np.float64]:

@@ -1,6 +1,8 @@
 """The side view of one environment: robot, drive magnets, ground and trail."""
 
 import itertools
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +11,7 @@ from numpy.typing import NDArray
 from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
-from magworm_gym.render.outline import band, rectangle
+from magworm_gym.render.outline import band, half, rectangle
 from magworm_gym.render.palette import (
     EYE,
     LETTER,
@@ -35,6 +37,7 @@ HORIZON = 0.32
 TRAIL_PIECES = 12
 TRAIL_POINTS = 480
 SMALLEST_LETTER_PX = 8.0
+UPWARD = np.array([0.0, 1.0])
 
 
 class SideView(Windowed):
@@ -46,8 +49,9 @@ class SideView(Windowed):
 
     Args:
         geometry: ``Scene.geometry``: ``node_thickness_m`` (K,), ``element_thickness_m`` (K - 1,; may be
-            left out), ``magnet_size_m`` (length, height),
-            ``polarity`` (M,), positive for north up at rest, ``drive_size_m`` (length, height),
+            left out), ``magnet_size_m`` (M, 3): length, height and width,
+            ``magnet_direction`` (M, 3): from south to north along the body, up and to the side,
+            ``magnet_offset_m`` (M, 3): centre from that of its body, ``drive_size_m`` (length, height),
             ``ground``, ``incline_deg``.
         width: Width of a frame [pixels].
         height: Height of a frame [pixels].
@@ -73,8 +77,9 @@ class SideView(Windowed):
         self.height = height
         sections = geometry.get("element_thickness_m", geometry["node_thickness_m"])
         self._thickness = np.asarray(sections, dtype=np.float64)
-        self._magnet_size = tuple(geometry["magnet_size_m"])
-        self._polarity = np.asarray(geometry["polarity"], dtype=np.float64)
+        self._magnet_size = np.asarray(geometry["magnet_size_m"], dtype=np.float64)[:, :2]
+        self._magnet_direction = np.asarray(geometry["magnet_direction"], dtype=np.float64)[:, :2]
+        self._magnet_offset = np.asarray(geometry["magnet_offset_m"], dtype=np.float64)[:, :2]
         self._drive_size = tuple(geometry["drive_size_m"])
         self._ground = bool(geometry["ground"])
         self._incline_deg = float(geometry["incline_deg"])
@@ -143,7 +148,7 @@ class SideView(Windowed):
             if opened is None:
                 continue
             with opened as region:
-                _draw_magnet(region, camera, (x, y, 0.0), (length, height), 1.0)
+                _draw_magnet(region, camera, (x, y, 0.0), (length, height), UPWARD)
             pole_px = 0.5 * height * camera.pixels_per_m
             if pole_px >= SMALLEST_LETTER_PX:
                 column, row = corners.mean(axis=0).tolist()
@@ -167,8 +172,10 @@ class SideView(Windowed):
         with opened as region:
             draw_trail(region, line)
             self._draw_rubber(region, camera, nodes, body)
-            for pose, there, polarity in zip(poses.tolist(), present, self._polarity, strict=True):
-                _draw_magnet(region, camera, pose, self._magnet_size, polarity if there else 0.0)
+            magnets = zip(poses, self._magnet_offset, self._magnet_size, self._magnet_direction, strict=True)
+            for (pose, offset, size, direction), there in zip(magnets, present, strict=True):
+                place = (*(pose[:2] + offset @ _turned(pose[2])), pose[2])
+                _draw_magnet(region, camera, place, size, direction if there else None)
 
     def _draw_rubber(self, region: Region, camera: Camera, nodes: Floats, body: Floats) -> None:
         centre_line = camera.pixels(nodes)
@@ -209,16 +216,22 @@ def _draw_magnet(
     region: Region,
     camera: Camera,
     pose: tuple[float, float, float],
-    size_m: tuple[float, float],
-    polarity: float,
+    size_m: Sequence[float] | Floats,
+    direction: Floats | None,
 ) -> None:
-    """Draws a magnet with its two poles; polarity 0 leaves an empty outline."""
+    """Draws a magnet, cut across its direction into its two poles; None leaves an empty outline."""
     length, height = size_m
-    whole = camera.pixels(rectangle(*pose, length, -0.5 * height, 0.5 * height))
-    if polarity == 0.0:
-        region.polygon(whole, None, REMOVED_EDGE, edge_px=1.0)
+    whole = rectangle(*pose, length, -0.5 * height, 0.5 * height)
+    if direction is None:
+        region.polygon(camera.pixels(whole), None, REMOVED_EDGE, edge_px=1.0)
         return
-    upper, lower = (NORTH, SOUTH) if polarity > 0.0 else (SOUTH, NORTH)
-    region.polygon(camera.pixels(rectangle(*pose, length, 0.0, 0.5 * height)), upper)
-    region.polygon(camera.pixels(rectangle(*pose, length, -0.5 * height, 0.0)), lower)
-    region.polygon(whole, None, MAGNET_EDGE, edge_px=1.0)
+    north = direction @ _turned(pose[2])
+    region.polygon(camera.pixels(whole), SOUTH)
+    region.polygon(camera.pixels(half(whole, north)), NORTH)
+    region.polygon(camera.pixels(whole), None, MAGNET_EDGE, edge_px=1.0)
+
+
+def _turned(angle: float) -> Floats:
+    """Along a body and up from it, in x, y: rows."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, sine], [-sine, cosine]])

@@ -11,7 +11,7 @@ from PIL import Image
 
 from magworm_gym.render.camera import FOLLOWED_SHARE
 from magworm_gym.render.canvas import Canvas, Region
-from magworm_gym.render.outline import band
+from magworm_gym.render.outline import band, half
 from magworm_gym.render.palette import (
     DRIVE_BELOW,
     EYE,
@@ -56,10 +56,11 @@ class TopView:
     def __init__(self, geometry: dict[str, Any], width: int, height: int) -> None:
         self.width = width
         self.height = height
-        self._body_width = float(geometry["body_width_m"])
+        self._width = np.asarray(geometry["element_width_m"], dtype=np.float64)
         self._thickness = float(np.mean(geometry["element_thickness_m"]))
-        self._magnet_size = np.array([geometry["magnet_size_m"][0], geometry["magnet_width_m"]])
-        self._polarity = np.asarray(geometry["polarity"], dtype=np.float64)
+        self._magnet_size = np.asarray(geometry["magnet_size_m"], dtype=np.float64)[:, [0, 2]]
+        self._magnet_direction = np.asarray(geometry["magnet_direction"], dtype=np.float64)
+        self._magnet_offset = np.asarray(geometry["magnet_offset_m"], dtype=np.float64)
         self._drive_size = np.array([geometry["drive_size_m"][0], geometry["drive_width_m"]])
         self._background = Image.new("RGB", (width, height), PLATE_ABOVE)
         self._pixels_per_m = 0.0
@@ -159,7 +160,7 @@ class TopView:
 
     def _draw_robot(self, region: Region, line: Floats, poses: Floats, present: NDArray[np.bool_]) -> None:
         pixels = self._pixels(line)
-        width = np.full(len(line), self._seen_width(poses) * self._pixels_per_m)
+        width = self._seen_width(poses) * self._pixels_per_m
         outline = band(pixels, width)
         region.polygon(outline, RUBBER)
         region.polygon(band(pixels, width, share=0.6), RUBBER_LIGHT)
@@ -169,28 +170,46 @@ class TopView:
         for sign in (-1.0, 1.0):
             eye = pixels[0] + width[0] * (0.16 * inward + sign * 0.26 * aside)
             region.disc(eye, max(1.2, 0.05 * width[0]), EYE)
-        for pose, there, polarity in zip(poses, present, self._polarity, strict=True):
-            self._draw_magnet(region, pose, polarity if there else 0.0)
+        for magnet, (pose, there) in enumerate(zip(poses, present, strict=True)):
+            self._draw_magnet(region, magnet, pose, there)
 
-    def _seen_width(self, poses: Floats) -> float:
-        """Width of the body from above [m]: less where it lies on its side."""
+    def _seen_width(self, poses: Floats) -> Floats:
+        """Width of each element from above (K - 1,) [m]: less where the body lies on its side."""
         w, x, y, z = poses[:, 3:].T
         lying = np.abs(2.0 * (y * z - w * x))
         upright = float(np.sqrt(np.clip(1.0 - lying**2, 0.0, 1.0)).mean()) if len(poses) else 1.0
-        return self._body_width * upright + self._thickness * math.sqrt(1.0 - upright**2)
+        return np.asarray(self._width * upright + self._thickness * math.sqrt(1.0 - upright**2))
 
-    def _draw_magnet(self, region: Region, pose: Floats, polarity: float) -> None:
-        w, x, y, z = pose[3:]
-        along = np.array([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * z - w * y)])
-        across = np.array([2.0 * (x * z + w * y), 1.0 - 2.0 * (x * x + y * y)])
-        corners = self._pixels(_corners(pose[[0, 2]], along, across, self._magnet_size))
-        up = polarity * (1.0 - 2.0 * (x * x + z * z))
-        fill = None if polarity == 0.0 else NORTH if up > 0.0 else SOUTH
-        region.polygon(corners, fill, REMOVED_EDGE if fill is None else MAGNET_EDGE, edge_px=1.0)
+    def _draw_magnet(self, region: Region, magnet: int, pose: Floats, there: np.bool_) -> None:
+        """Draws the pole that points up; both where the magnet points more to a side."""
+        axes = _rotation(pose[3:])
+        centre = pose[[0, 2]] + (axes @ self._magnet_offset[magnet])[[0, 2]]
+        along, across = axes[[0, 2], 0], axes[[0, 2], 2]
+        corners = self._pixels(_corners(centre, along, across, self._magnet_size[magnet]))
+        if not there:
+            region.polygon(corners, None, REMOVED_EDGE, edge_px=1.0)
+            return
+        x, up, z = axes @ self._magnet_direction[magnet]
+        region.polygon(corners, NORTH if up > 0.0 else SOUTH, MAGNET_EDGE, edge_px=1.0)
+        if math.hypot(x, z) > abs(up):
+            for sign, colour in ((1.0, NORTH), (-1.0, SOUTH)):
+                region.polygon(half(corners, sign * np.array([x, z])), colour, MAGNET_EDGE, edge_px=1.0)
 
 
 def _label(centimetre: int) -> str:
     return f"{centimetre} cm" if centimetre else "0"
+
+
+def _rotation(quaternion: Floats) -> Floats:
+    """Axes of a body (3, 3) in its columns: along it, up, to its side."""
+    w, x, y, z = quaternion
+    return np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )
 
 
 def _axes(yaw: float) -> tuple[Floats, Floats]:

@@ -56,7 +56,8 @@ def magnets(scene: Scene, values: dict[str, Any]) -> Magnets:
     body = (magnet["length_m"], magnet["width_m"], magnet["height_m"])
     nodes = Batch(scene, 1).node_positions()[0]
     lengths = np.linalg.norm(np.diff(nodes, axis=0), axis=-1)
-    rubber = lengths @ np.asarray(scene.geometry["element_thickness_m"]) * scene.geometry["body_width_m"]
+    geometry = scene.geometry
+    rubber = lengths @ np.multiply(geometry["element_thickness_m"], geometry["element_width_m"])
     mass = material["density_kg_m3"] * rubber + scene.magnets * magnet["density_kg_m3"] * float(np.prod(body))
     return Magnets(
         body,

@@ -29,10 +29,10 @@ def draw_robot(axes: Any, scene: Scene, recording: Recording, sample: int, share
     outline = MM * band(recording.nodes[sample], np.asarray(geometry["element_thickness_m"]))
     rubber, edge = colour(palette.RUBBER), colour(palette.RUBBER_EDGE)
     axes.add_patch(Polygon(outline, facecolor=rubber, edgecolor=edge, lw=0.8, alpha=share, zorder=3))
-    size = geometry["magnet_size_m"]
-    poses = recording.magnet_poses[sample]
-    for pose, there, polarity in zip(poses.tolist(), recording.present, geometry["polarity"], strict=True):
-        draw_magnet(axes, pose, size, polarity if there else 0.0, share)
+    poses = recording.magnet_poses[sample].tolist()
+    magnets = zip(poses, geometry["magnet_size_m"], recording.present, geometry["polarity"], strict=True)
+    for pose, size, there, polarity in magnets:
+        draw_magnet(axes, pose, size[:2], polarity if there else 0.0, share)
 
 
 def draw_drive(axes: Any, scene: Scene, recording: Recording, sample: int) -> None:

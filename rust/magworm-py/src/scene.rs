@@ -49,6 +49,10 @@ impl Scene {
         Self::compile(&self.inner().with_values(&changes).map_err(scene_error)?)
     }
 
+    fn in_segments(&self) -> PyResult<Self> {
+        Self::compile(&self.inner().in_segments())
+    }
+
     fn to_toml(&self) -> String {
         self.inner().to_toml()
     }
@@ -147,14 +151,19 @@ impl Scene {
         dict.set_item("node_thickness_m", nodes)?;
         let elements: Vec<f64> = mesh.elements.iter().map(|e| e.thickness_m).collect();
         dict.set_item("element_thickness_m", elements)?;
-        let magnet = scene.magnet.as_ref().map_or((0.0, 0.0), |m| (m.length_m, m.height_m));
-        dict.set_item("magnet_size_m", magnet)?;
+        let widths: Vec<f64> = mesh.elements.iter().map(|e| e.width_m).collect();
+        dict.set_item("element_width_m", widths)?;
+        let sizes: Vec<[f64; 3]> = mesh.magnets.iter().map(|m| m.size_m).collect();
+        dict.set_item("magnet_size_m", sizes)?;
+        let offsets: Vec<[f64; 3]> = mesh.magnets.iter().map(|m| m.offset_m).collect();
+        dict.set_item("magnet_offset_m", offsets)?;
+        let directions: Vec<[f64; 3]> =
+            mesh.magnets.iter().map(|m| m.direction.map(|part| part * m.polarity)).collect();
+        dict.set_item("magnet_direction", directions)?;
         let polarity: Vec<f64> = mesh.magnets.iter().map(|m| m.polarity).collect();
         dict.set_item("polarity", polarity)?;
         let drive = scene.drive.as_ref().map_or((0.0, 0.0), |d| (d.length_m, d.height_m));
         dict.set_item("drive_size_m", drive)?;
-        dict.set_item("body_width_m", mesh.width_m)?;
-        dict.set_item("magnet_width_m", scene.magnet.as_ref().map_or(0.0, |m| m.width_m))?;
         dict.set_item("drive_width_m", scene.drive.as_ref().map_or(0.0, |d| d.width_m))?;
         dict.set_item("ground", scene.ground.is_some())?;
         dict.set_item("incline_deg", scene.ground.as_ref().map_or(0.0, |g| g.incline_deg))?;

@@ -43,11 +43,12 @@ pub fn size(model: &Model) -> usize {
     per_magnet * model.magnets() + drive + action_size(model)
 }
 
-/// Length that observations are scaled by [m]: the magnet pitch, or the rod's length.
+/// Length that observations are scaled by [m]: the magnet pitch, on the average where segments differ, or the rod's length.
 pub fn length_scale_m(model: &Model) -> f64 {
     match &model.scene.body {
         Body::Worm(worm) => worm.pitch_m,
         Body::Rod(rod) => rod.length_m,
+        Body::Segments(_) => model.mesh.pitch_m().unwrap_or(model.mesh.length_m()),
     }
 }
 

@@ -185,10 +185,11 @@ pub fn apply_parameters<const W: usize, N: Number>(
         let mass = &mut block.mass[part.dof][lane];
         *mass = N::of(mass.f64() + mass_factor * (part.rubber + cavity));
     }
-    let remanence = factor(block, Parameter::Remanence) * model.magnet_remanence_t;
+    let remanence_factor = factor(block, Parameter::Remanence);
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
+        let remanence_t = remanence_factor * magnet.remanence_t * magnet.polarity;
         let is_in = block.present[body][lane].f64();
-        block.remanence[body][lane] = N::of(remanence * magnet.polarity * is_in);
+        block.remanence[body][lane] = N::of(remanence_t * is_in);
     }
 }
 

@@ -230,7 +230,7 @@ fn a_node_takes_its_share_of_each_part() {
     let robot = World::new("paper-3", &[&[("start.bends_deg", "[90]")]]);
     for magnet in &robot.model.mesh.magnets {
         let (head, tail) = (robot.place(magnet.element), robot.place(magnet.element + 1));
-        assert!(((tail - head).norm() - 2.0 * robot.model.half_magnet_m).abs() < 1e-15);
+        assert!(((tail - head).norm() - 2.0 * magnet.half_length_m).abs() < 1e-15);
     }
 }
 
@@ -401,8 +401,7 @@ fn the_lowest_point_of_a_bent_body_stands_at_its_height() {
         for (node, thick, wide) in
             [(e, 1.0, 1.0), (e, -1.0, 1.0), (e, 1.0, -1.0), (e, -1.0, -1.0), (e + 1, -1.0, -1.0)]
         {
-            let arm =
-                up * (thick * element.thickness_m) + side * (wide * rolled.model.mesh.width_m);
+            let arm = up * (thick * element.thickness_m) + side * (wide * element.width_m);
             lowest = lowest.min((rolled.place(node) + arm * 0.5).y);
         }
     }

@@ -8,7 +8,7 @@ use magworm::contact::Mode;
 use magworm::model::Model;
 use magworm::state::LaneChoice::{self, Scalar, Wide};
 use magworm::state::Status;
-use scenes::model;
+use scenes::{SCENES, model};
 use std::sync::Arc;
 
 /// The records of some robots, `[control step][place]`.
@@ -48,6 +48,33 @@ fn lanes_agree(scene: &str, steps: u64, broken: usize) {
     let one_by_one = records(&model, &robots, Scalar, 1, steps);
     let places: Vec<usize> = (0..13).collect();
     assert_equal(&one_by_one, &in_lanes, &places, &format!("{scene}, scalar and wide"));
+}
+
+/// Observations aside, which a mean pitch scales.
+#[test]
+fn worms_and_rods_are_short_for_segments_with_equal_bits() {
+    for (name, ..) in SCENES {
+        let short = model(name);
+        let long = Arc::new(Model::compile(&short.scene.in_segments()).expect("a model"));
+        let mut worlds = [short, long].map(|model| World::new(&model, &[0, 1, 2], Wide, 1));
+        for step in 0..30 {
+            let [short, long] = worlds.each_mut().map(|world| {
+                world.step();
+                seen(world)
+            });
+            short.assert_equals(&long, &format!("{name}, control step {step}"));
+        }
+    }
+}
+
+/// What a view shows of three robots.
+fn seen(world: &World) -> Record {
+    let mut record = Record::default();
+    let model = world.batch.model();
+    for place in 0..3 {
+        world.batch.view(place, |view| record.look(&view, model, model.contacts.len()));
+    }
+    record
 }
 
 #[test]

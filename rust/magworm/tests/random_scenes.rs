@@ -246,6 +246,7 @@ fn spoil(scene: &mut Scene, place: usize, number: f64) {
         _ => match &mut scene.body {
             Body::Worm(worm) => worm.pitch_m = number,
             Body::Rod(rod) => rod.thickness_m = number,
+            Body::Segments(body) => body.segment[0].length_m = number,
         },
     }
 }

@@ -199,6 +199,7 @@ proptest! {
             _ => match &mut scene.body {
                 Body::Worm(worm) => worm.removed.push(count),
                 Body::Rod(rod) => rod.elements = count,
+                Body::Segments(body) => body.segment[0].elements = count,
             },
         }
         let result = scene.validate().map(|()| scene.clone());

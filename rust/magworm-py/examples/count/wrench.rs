@@ -54,7 +54,7 @@ pub fn count(model: &Model, set: InstructionSet) -> Result<u64, String> {
     let magnetics = model.program.magnetics.as_ref().ok_or("the scene has no magnets")?;
     let poses = poses();
     let mut total = [[0.0; WIDE]; 6];
-    counted(&mut || run_wide_on(set, Sweep(&magnetics.pair, black_box(&poses), &mut total)));
+    counted(&mut || run_wide_on(set, Sweep(&magnetics.models[0], black_box(&poses), &mut total)));
     black_box(total);
     Ok(ROWS as u64)
 }

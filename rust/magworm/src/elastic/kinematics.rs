@@ -69,7 +69,7 @@ fn nodes<const W: usize, const D: usize, I: Isa<W>>(
             }
             Anchor::Rigid { body, side } => {
                 let dof = model.coordinates.bodies[body];
-                let arm = f64::from(side) * model.half_magnet_m;
+                let arm = f64::from(side) * model.mesh.magnets[body].half_length_m;
                 for k in 0..D {
                     let place = isa.load(&q[dof + k]) + isa.load(&frame[axes * body + k]) * arm;
                     isa.store(place, &mut places[D * node + k]);

@@ -34,7 +34,7 @@ fn constrain<const W: usize, const D: usize, I: Isa<W>>(
 ) {
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
-    let reach = f64::from(tie.side) * model.half_magnet_m;
+    let reach = f64::from(tie.side) * model.mesh.magnets[tie.body].half_length_m;
     let axes = if D == 2 { 2 } else { 9 };
     let mut arm = [isa.splat(0.0); D];
     for k in 0..D {

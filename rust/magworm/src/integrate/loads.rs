@@ -83,10 +83,10 @@ fn uniform_torque<const W: usize, const D: usize, I: Isa<W>>(
     if D == 2 {
         let cos = isa.load(&block.frame[2 * body]);
         let sin = isa.load(&block.frame[2 * body + 1]);
-        wrench[2] = wrench[2] + field.magnet.torque(bx, by, cos, sin, remanence);
+        wrench[2] = wrench[2] + field.magnets[body].torque(bx, by, cos, sin, remanence);
     } else {
         let [_, up, _] = elastic::axes(isa, block, body);
-        let torque = field.magnet.torque_in_space([bx, by, bz], &up, remanence);
+        let torque = field.magnets[body].torque_in_space([bx, by, bz], &up, remanence);
         for k in 0..3 {
             wrench[3 + k] = wrench[3 + k] + torque[k];
         }
@@ -109,10 +109,10 @@ fn planar_wrench<const W: usize, I: Isa<W>>(
     let sin = isa.load(&block.frame[2 * body + 1]);
     let (stage_x, stage_y) = (isa.load(&block.stage[0]), isa.load(&block.stage[1]));
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
-    for k in 0..drive.layout.offset_m.len() {
-        let dx = x - drive.layout.position(k, stage_x, robot);
-        let strength = remanence * drive.layout.polarity[k];
-        let wrench = match &magnetics.pair {
+    for pair in &magnetics.pairs[body] {
+        let dx = x - drive.layout.position(pair.source, stage_x, robot);
+        let strength = remanence * drive.layout.polarity[pair.source];
+        let wrench = match &magnetics.models[pair.model] {
             PairModel::Cuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
             PairModel::Dipole(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
             PairModel::SpatialCuboid(_) | PairModel::SpatialDipole(_) => continue,
@@ -143,20 +143,20 @@ fn spatial_wrench<const W: usize, I: Isa<W>>(
     for k in 0..3 {
         axes[k] = turned(&axes[k], cos, -sin);
     }
-    for k in 0..drive.layout.offset_m.len() {
-        let [x, z] = drive.layout.place(k, stage[0], stage[2], robot, sin, cos);
+    for pair in &magnetics.pairs[body] {
+        let [x, z] = drive.layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
         let offset = [
             isa.load(&block.q[dof]) - x,
             isa.load(&block.q[dof + 1]) - stage[1],
             isa.load(&block.q[dof + 2]) - z,
         ];
         let offset = turned(&offset, cos, -sin);
-        let wrench = match &magnetics.pair {
+        let wrench = match &magnetics.models[pair.model] {
             PairModel::SpatialCuboid(pair) => pair.wrench(offset, axes),
             PairModel::SpatialDipole(pair) => pair.wrench(&offset, &axes[1]),
             PairModel::Cuboid(_) | PairModel::Dipole(_) => continue,
         };
-        let strength = remanence * drive.layout.polarity[k];
+        let strength = remanence * drive.layout.polarity[pair.source];
         let force = turned(&[wrench[0], wrench[1], wrench[2]], cos, sin);
         let torque = turned(&[wrench[3], wrench[4], wrench[5]], cos, sin);
         for axis in 0..3 {

@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
-use super::{Model, PairModel, UniformTorque};
-use crate::scene::{Curvature, Integrator, Precision};
+use super::{Model, UniformTorque};
+use crate::scene::{Curvature, Integrator, MagnetModel, Precision};
 use std::fmt::Write;
 
 impl Model {
@@ -74,19 +74,19 @@ impl Model {
     }
 
     fn explain_drive(&self) -> String {
-        let Some(drive) = &self.program.drive else {
+        if self.program.drive.is_none() {
             return "left out: the scene has no [drive]".to_string();
-        };
+        }
         let Some(magnetics) = &self.program.magnetics else {
             return "wrench left out: the body has no magnets".to_string();
         };
-        let pair = match &magnetics.pair {
-            PairModel::Cuboid(_) | PairModel::SpatialCuboid(_) => {
+        let pair = match self.scene.solver.magnet_model {
+            MagnetModel::Cuboid => {
                 format!("cuboids, quadrature order {}", self.scene.solver.quadrature_order)
             }
-            PairModel::Dipole(_) | PairModel::SpatialDipole(_) => "dipoles".to_string(),
+            MagnetModel::Dipole => "dipoles".to_string(),
         };
-        let pairs = drive.layout.offset_m.len() * self.magnets();
+        let pairs = magnetics.count();
         let often = match magnetics.interval {
             1 => "a step".to_string(),
             n => format!("every {n} steps, held between"),

@@ -1,14 +1,17 @@
 //! Compiled wrench of the drive magnets on the body magnets.
 
+use super::mesh::{Mesh, MeshMagnet};
 use crate::magnetic::{self, Cuboid, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair};
-use crate::scene::{Drive, Magnet, MagnetModel, Scene};
+use crate::scene::{Drive, MagnetModel, Scene};
 use nalgebra::Vector3;
 
-/// Model of one drive magnet and one body magnet, and which components of the wrench act.
+/// The pairs of magnets of a scene, and which components of their wrench act.
 #[derive(Clone, Debug)]
 pub struct Magnetics {
-    /// The pair.
-    pub pair: PairModel,
+    /// For each body magnet the pairs that it is the target of, in the order in which their wrenches are summed.
+    pub pairs: Vec<Vec<MagneticPair>>,
+    /// The models that pairs name: one for all pairs that are alike.
+    pub models: Vec<PairModel>,
     /// 1 for components that act, 0 for those switched off: (F_x, F_y, T_z, …) in the plane,
     /// (F_x, F_y, F_z, T_x, T_y, T_z) in space.
     pub terms: [f64; 6],
@@ -16,6 +19,17 @@ pub struct Magnetics {
     pub drive_remanence_t: f64,
     /// Steps for which a wrench acts; 1: it is computed in each, and nothing is held.
     pub interval: u64,
+}
+
+/// A magnet in the field of another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MagneticPair {
+    /// The drive magnet whose field acts.
+    pub source: usize,
+    /// The body magnet that it acts on.
+    pub target: usize,
+    /// Their model.
+    pub model: usize,
 }
 
 /// A model of two magnets.
@@ -33,32 +47,60 @@ pub enum PairModel {
 
 impl Magnetics {
     /// Compiles the magnets of a scene.
-    pub fn new(scene: &Scene, magnet: &Magnet, drive: &Drive) -> Self {
-        let source =
-            Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
-        let body = cuboid(magnet);
-        let order = scene.solver.quadrature_order;
-        let pair = match (scene.solver.magnet_model, scene.dimensions) {
-            (MagnetModel::Cuboid, 2) => PairModel::Cuboid(PlanarPair::new(source, body, order)),
-            (MagnetModel::Dipole, 2) => PairModel::Dipole(PlanarDipole::new(source, body)),
-            (MagnetModel::Cuboid, _) => {
-                PairModel::SpatialCuboid(SpatialPair::new(&unit(source), &unit(body), order))
+    pub fn new(scene: &Scene, mesh: &Mesh, drive: &Drive) -> Self {
+        let mut kinds: Vec<&MeshMagnet> = Vec::new();
+        let mut pairs = Vec::new();
+        for (target, magnet) in mesh.magnets.iter().enumerate() {
+            let known = kinds.iter().position(|kind| kind.is_alike(magnet));
+            let model = known.unwrap_or(kinds.len());
+            if known.is_none() {
+                kinds.push(magnet);
             }
-            (MagnetModel::Dipole, _) => PairModel::SpatialDipole(SpatialDipole::new(source, body)),
-        };
-        let terms = &scene.magnetic_terms;
-        let (along, up, turn) = (terms.horizontal_force, terms.vertical_force, terms.torque);
-        let acts = match scene.dimensions {
-            2 => [along, up, turn, false, false, false],
-            _ => [along, up, along, turn, turn, turn],
-        };
+            let sources = 0..drive.arrangement.magnets();
+            pairs.push(sources.map(|source| MagneticPair { source, target, model }).collect());
+        }
         Self {
-            pair,
-            terms: acts.map(|on| if on { 1.0 } else { 0.0 }),
+            pairs,
+            models: kinds.iter().map(|magnet| PairModel::new(scene, drive, magnet)).collect(),
+            terms: terms(scene),
             drive_remanence_t: drive.remanence_t,
             interval: scene.solver.wrench_interval as u64,
         }
     }
+
+    /// Number of pairs.
+    pub fn count(&self) -> usize {
+        self.pairs.iter().map(Vec::len).sum()
+    }
+}
+
+impl PairModel {
+    /// The model of a drive magnet and a body magnet.
+    fn new(scene: &Scene, drive: &Drive, magnet: &MeshMagnet) -> Self {
+        let source =
+            Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
+        let body = magnet.cuboid();
+        let order = scene.solver.quadrature_order;
+        match (scene.solver.magnet_model, scene.dimensions) {
+            (MagnetModel::Cuboid, 2) => Self::Cuboid(PlanarPair::new(source, body, order)),
+            (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(source, body)),
+            (MagnetModel::Cuboid, _) => {
+                Self::SpatialCuboid(SpatialPair::new(&unit(source), &unit(body), order))
+            }
+            (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(source, body)),
+        }
+    }
+}
+
+/// 1 for each component of a wrench that acts, else 0.
+fn terms(scene: &Scene) -> [f64; 6] {
+    let terms = &scene.magnetic_terms;
+    let (along, up, turn) = (terms.horizontal_force, terms.vertical_force, terms.torque);
+    let acts = match scene.dimensions {
+        2 => [along, up, turn, false, false, false],
+        _ => [along, up, along, turn, turn, turn],
+    };
+    acts.map(|on| if on { 1.0 } else { 0.0 })
 }
 
 /// A cuboid of 1 T along its height, in the order length, height, width.
@@ -67,9 +109,4 @@ fn unit(cuboid: Cuboid) -> magnetic::Magnet {
         size_m: Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m),
         remanence_t: Vector3::y(),
     }
-}
-
-/// The cuboid of a body magnet.
-pub fn cuboid(magnet: &Magnet) -> Cuboid {
-    Cuboid { length_m: magnet.length_m, height_m: magnet.height_m, width_m: magnet.width_m }
 }

@@ -1,6 +1,8 @@
 //! The mesh: nodes, rod elements, rigid magnets. Section changes and magnet ends fall on nodes.
 
-use crate::scene::{Body, Clamp, Rod, Scene, Worm};
+use super::direction::direction;
+use crate::magnetic::Cuboid;
+use crate::scene::{Plan, Scene, Segment, SegmentMagnet};
 
 /// Nodes and elements along the rest body, head first.
 #[derive(Clone, Debug)]
@@ -15,8 +17,6 @@ pub struct Mesh {
     pub soles: Vec<Sole>,
     /// Nodes held in place, from the head.
     pub fixed_nodes: usize,
-    /// Width of the body, out of the plane [m].
-    pub width_m: f64,
 }
 
 /// A rod element.
@@ -24,6 +24,8 @@ pub struct Mesh {
 pub struct Element {
     /// Thickness of the section [m].
     pub thickness_m: f64,
+    /// Width of the section, out of the plane [m].
+    pub width_m: f64,
     /// The magnet that makes it rigid.
     pub magnet: Option<usize>,
 }
@@ -33,8 +35,20 @@ pub struct Element {
 pub struct MeshMagnet {
     /// The element it fills.
     pub element: usize,
-    /// 1: magnetised along the body's up direction, −1: down.
+    /// Half its length: the distance of the element's nodes from its middle [m].
+    pub half_length_m: f64,
+    /// Edges along the body, its thickness and its width [m].
+    pub size_m: [f64; 3],
+    /// Place of its centre from the middle of its element: along the body, up, to the side [m].
+    pub offset_m: [f64; 3],
+    /// Magnitude of the remanence [T].
+    pub remanence_t: f64,
+    /// −1 where it is magnetised straight down, else 1: sign of its remanence along `direction`.
     pub polarity: f64,
+    /// Direction of the remanence along the body, up and to the side; up where it is magnetised straight down.
+    pub direction: [f64; 3],
+    /// Density [kg/m³].
+    pub density_kg_m3: f64,
     /// Whether the scene leaves the magnet in.
     pub present: bool,
 }
@@ -66,22 +80,56 @@ pub enum Sole {
     },
 }
 
-/// A stretch of equal section.
-struct Segment {
-    length_m: f64,
-    thickness_m: f64,
-    parts: usize,
-    magnet: Option<usize>,
+impl MeshMagnet {
+    /// Its cuboid.
+    pub fn cuboid(&self) -> Cuboid {
+        let [length_m, height_m, width_m] = self.size_m;
+        Cuboid { length_m, height_m, width_m }
+    }
+
+    /// Whether another magnet has its shape and direction; strength and polarity aside.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self.size_m == other.size_m && self.direction == other.direction
+    }
+
+    /// Volume [m³].
+    pub fn volume_m3(&self) -> f64 {
+        let [length_m, height_m, width_m] = self.size_m;
+        length_m * width_m * height_m
+    }
+
+    /// Mass of the magnet alone [kg].
+    pub fn mass_kg(&self) -> f64 {
+        let [length_m, height_m, width_m] = self.size_m;
+        self.density_kg_m3 * length_m * width_m * height_m
+    }
 }
 
 impl Mesh {
     /// Meshes the body of a validated scene.
     pub fn new(scene: &Scene) -> Self {
-        let magnet_length_m = scene.magnet.as_ref().map_or(0.0, |m| m.length_m);
-        match &scene.body {
-            Body::Worm(worm) => Self::worm(worm, magnet_length_m, scene.dimensions),
-            Body::Rod(rod) => Self::rod(rod, magnet_length_m, scene.ground.is_some()),
+        let plan = Plan::new(scene);
+        let behind_wall_m = plan.behind_wall_m.unwrap_or(0.0);
+        let mut mesh = Self {
+            arc_m: vec![-behind_wall_m],
+            elements: Vec::new(),
+            magnets: Vec::new(),
+            soles: Vec::new(),
+            fixed_nodes: if plan.behind_wall_m.is_some() { 2 } else { 0 },
+        };
+        for (place, segment) in plan.segments.iter().enumerate() {
+            match &segment.magnet {
+                Some(magnet) => mesh.add_magnet(segment, magnet, scene.dimensions),
+                None => {
+                    let wall_m = if place == 0 { behind_wall_m } else { 0.0 };
+                    mesh.add_elements(segment, segment.length_m + wall_m, None);
+                }
+            }
         }
+        if mesh.soles.is_empty() && scene.ground.is_some() {
+            mesh.soles = mesh.soles_of_nodes();
+        }
+        mesh
     }
 
     /// Length of the rest body [m].
@@ -94,127 +142,91 @@ impl Mesh {
         self.arc_m[element + 1] - self.arc_m[element]
     }
 
-    fn worm(worm: &Worm, magnet_length_m: f64, dimensions: usize) -> Self {
-        let foot_end_m = 0.5 * (worm.foot_length_m - magnet_length_m);
-        let foot_end = |_| Segment {
-            length_m: foot_end_m,
-            thickness_m: worm.foot_thickness_m,
-            parts: if foot_end_m > 1e-9 * worm.foot_length_m {
-                worm.elements_per_foot_end
-            } else {
-                0
-            },
-            magnet: None,
+    /// Mean distance between the middles of adjacent magnets [m]; none with less than two.
+    pub fn pitch_m(&self) -> Option<f64> {
+        let middle_m = |magnet: &MeshMagnet| {
+            0.5 * (self.arc_m[magnet.element] + self.arc_m[magnet.element + 1])
         };
-        // A toe and a heel in the plane, two of each in space.
+        let [first, .., last] = self.magnets.as_slice() else { return None };
+        Some((middle_m(last) - middle_m(first)) / (self.magnets.len() - 1) as f64)
+    }
+
+    /// Volume of an element with what is in it [m³].
+    pub fn volume_m3(&self, element: usize) -> f64 {
+        let Element { thickness_m, width_m, .. } = self.elements[element];
+        self.element_length_m(element) * thickness_m * width_m
+    }
+
+    /// A magnet, the rubber before and behind it, and its contact points where the segment is a foot.
+    fn add_magnet(&mut self, segment: &Segment, magnet: &SegmentMagnet, dimensions: usize) {
+        let [before_m, behind_m] = segment.ends_m(magnet);
+        self.add_elements(segment, before_m, None);
+        let (body, element) = (self.magnets.len(), self.elements.len());
+        self.add_elements(segment, magnet.length_m, Some(body));
+        self.magnets.push(mesh_magnet(magnet, element));
+        self.add_elements(segment, behind_m, None);
+        if segment.foot {
+            self.add_soles(segment, magnet.along_m, body, dimensions);
+        }
+    }
+
+    /// Elements of equal length, one where they hold a magnet and none where there is no length.
+    fn add_elements(&mut self, segment: &Segment, length_m: f64, magnet: Option<usize>) {
+        let Segment { thickness_m, width_m, elements, .. } = *segment;
+        let parts = match magnet {
+            Some(_) => 1,
+            None if length_m > 0.0 => elements,
+            None => 0,
+        };
+        let start_m = self.length_m();
+        for part in 1..=parts {
+            self.elements.push(Element { thickness_m, width_m, magnet });
+            self.arc_m.push(start_m + length_m * part as f64 / parts as f64);
+        }
+    }
+
+    /// A toe and a heel in the plane, two of each in space.
+    fn add_soles(&mut self, foot: &Segment, along_m: f64, body: usize, dimensions: usize) {
         let corners: &[f64] = if dimensions == 2 { &[0.0] } else { &[-0.5, 0.5] };
-        let mut segments = Vec::new();
-        let mut soles = Vec::new();
-        for foot in 0..worm.magnets {
-            segments.push(foot_end(()));
-            segments.push(Segment {
-                length_m: magnet_length_m,
-                thickness_m: worm.foot_thickness_m,
-                parts: 1,
-                magnet: Some(foot),
-            });
-            segments.push(foot_end(()));
-            let depth_m = 0.5 * worm.foot_thickness_m;
-            for along_m in [-0.5 * worm.foot_length_m, 0.5 * worm.foot_length_m] {
-                soles.extend(corners.iter().map(|corner| {
-                    let across_m = corner * worm.width_m;
-                    Sole::Foot { body: foot, along_m, depth_m, across_m }
-                }));
-            }
-            if foot + 1 < worm.magnets {
-                segments.push(Segment {
-                    length_m: worm.pitch_m - worm.foot_length_m,
-                    thickness_m: worm.bridge_thickness_m,
-                    parts: worm.elements_per_bridge,
-                    magnet: None,
-                });
-            }
+        let depth_m = 0.5 * foot.thickness_m;
+        for end_m in [-0.5 * foot.length_m, 0.5 * foot.length_m] {
+            self.soles.extend(corners.iter().map(|corner| Sole::Foot {
+                body,
+                along_m: end_m - along_m,
+                depth_m,
+                across_m: corner * foot.width_m,
+            }));
         }
-        let polarity = |j: usize| {
-            let first = f64::from(worm.first_polarity);
-            if j.is_multiple_of(2) { first } else { -first }
+    }
+
+    /// One point below every node.
+    fn soles_of_nodes(&self) -> Vec<Sole> {
+        let last = self.elements.len() - 1;
+        let thickness_m = |node: usize| {
+            let sections = [node.saturating_sub(1), node.min(last)];
+            sections
+                .map(|element| self.elements[element].thickness_m)
+                .into_iter()
+                .fold(0.0, f64::max)
         };
-        let magnets: Vec<_> =
-            (0..worm.magnets).map(|j| (polarity(j), !worm.removed.contains(&j))).collect();
-        Self::from_segments(&segments, &magnets, soles, 0, worm.width_m, 0.0)
-    }
-
-    fn rod(rod: &Rod, magnet_length_m: f64, grounded: bool) -> Self {
-        // A clamp half an element behind the wall makes the clamped end second-order accurate:
-        // the curvature of the first free vertex then belongs to the stretch that starts at the wall.
-        let clamped = rod.clamp == Clamp::Head;
-        let behind_wall_m =
-            if clamped { 0.5 * rod.length_m / (rod.elements as f64 - 0.5) } else { 0.0 };
-        let size_m = (rod.length_m + behind_wall_m) / rod.elements as f64;
-        let segment = |length_m: f64, magnet| Segment {
-            length_m,
-            thickness_m: rod.thickness_m,
-            parts: if magnet_or_empty(magnet, length_m, size_m) {
-                usize::from(length_m > 1e-9 * size_m)
-            } else {
-                ((length_m / size_m).round() as usize).max(1)
-            },
-            magnet,
-        };
-        let mut order: Vec<usize> = (0..rod.magnets.len()).collect();
-        order.sort_by(|&a, &b| rod.magnets[a].position_m.total_cmp(&rod.magnets[b].position_m));
-        let mut segments = Vec::new();
-        let mut magnets = Vec::new();
-        let mut reached_m = -behind_wall_m;
-        for &j in &order {
-            let start_m = rod.magnets[j].position_m - 0.5 * magnet_length_m;
-            segments.push(segment(start_m - reached_m, None));
-            segments.push(segment(magnet_length_m, Some(magnets.len())));
-            magnets.push((f64::from(rod.magnets[j].polarity), true));
-            reached_m = start_m + magnet_length_m;
-        }
-        segments.push(segment(rod.length_m - reached_m, None));
-        let elements = count_elements(&segments);
-        let soles = if grounded { rod_soles(elements, 0.5 * rod.thickness_m) } else { Vec::new() };
-        let fixed = if clamped { 2 } else { 0 };
-        Self::from_segments(&segments, &magnets, soles, fixed, rod.width_m, behind_wall_m)
-    }
-
-    fn from_segments(
-        segments: &[Segment],
-        magnets: &[(f64, bool)],
-        soles: Vec<Sole>,
-        fixed_nodes: usize,
-        width_m: f64,
-        behind_wall_m: f64,
-    ) -> Self {
-        let mut arc_m = vec![-behind_wall_m];
-        let mut elements = Vec::new();
-        let mut mesh_magnets = Vec::new();
-        for segment in segments {
-            let start_m = arc_m[arc_m.len() - 1];
-            for part in 1..=segment.parts {
-                if let Some(j) = segment.magnet {
-                    let (polarity, present) = magnets[j];
-                    mesh_magnets.push(MeshMagnet { element: elements.len(), polarity, present });
-                }
-                elements.push(Element { thickness_m: segment.thickness_m, magnet: segment.magnet });
-                arc_m.push(start_m + segment.length_m * part as f64 / segment.parts as f64);
-            }
-        }
-        Self { arc_m, elements, magnets: mesh_magnets, soles, fixed_nodes, width_m }
+        (0..self.arc_m.len())
+            .map(|node| Sole::Node { node, depth_m: 0.5 * thickness_m(node) })
+            .collect()
     }
 }
 
-fn magnet_or_empty(magnet: Option<usize>, length_m: f64, size_m: f64) -> bool {
-    magnet.is_some() || length_m <= 1e-9 * size_m
-}
-
-fn count_elements(segments: &[Segment]) -> usize {
-    segments.iter().map(|s| s.parts).sum()
-}
-
-/// One point below every node.
-fn rod_soles(elements: usize, depth_m: f64) -> Vec<Sole> {
-    (0..=elements).map(|node| Sole::Node { node, depth_m }).collect()
+fn mesh_magnet(magnet: &SegmentMagnet, element: usize) -> MeshMagnet {
+    let direction = direction(magnet.angle_deg, 0.0);
+    let down = direction == [0.0, -1.0, 0.0];
+    MeshMagnet {
+        element,
+        half_length_m: 0.5 * magnet.length_m,
+        size_m: [magnet.length_m, magnet.height_m, magnet.width_m],
+        offset_m: [0.0; 3],
+        remanence_t: magnet.remanence_t,
+        polarity: if down { -1.0 } else { 1.0 },
+        direction: if down { [0.0, 1.0, 0.0] } else { direction },
+        density_kg_m3: magnet.density_kg_m3,
+        present: magnet.present,
+    }
 }

@@ -1,6 +1,7 @@
 //! `compile(Scene) → Model`: everything that does not change in time, shared by all environments.
 
 mod coordinates;
+mod direction;
 mod explain;
 mod explicit_limit;
 mod inertia;
@@ -14,7 +15,7 @@ mod waves;
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
 pub use explicit_limit::ExplicitLimit;
 pub use inertia::MassPart;
-pub use magnetics::{Magnetics, PairModel};
+pub use magnetics::{MagneticPair, Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use phases::Phase;
 pub use shape::Shape;
@@ -47,10 +48,6 @@ pub struct Model {
     pub inertia: Vec<MassPart>,
     /// Unknowns that are translations, with their axis (0 for x, 1 for y, 2 for z).
     pub translations: Vec<(usize, usize)>,
-    /// Half length of the body magnets [m].
-    pub half_magnet_m: f64,
-    /// Remanence of a body magnet [T].
-    pub magnet_remanence_t: f64,
     /// Greatest thickness of the body [m].
     pub thickness_m: f64,
     /// Ground contacts.
@@ -80,13 +77,13 @@ pub struct Program {
     pub drive: Option<DriveModel>,
 }
 
-/// Torque of a uniform field on a body magnet.
-#[derive(Clone, Copy, Debug)]
+/// Torque of a uniform field on the body magnets.
+#[derive(Clone, Debug)]
 pub struct UniformTorque {
     /// Flux density along x, y and z [T].
     pub field_t: [f64; 3],
-    /// A body magnet in it.
-    pub magnet: UniformField,
+    /// Each body magnet in it.
+    pub magnets: Vec<UniformField>,
 }
 
 /// Friction of the ground, see [`crate::contact`].
@@ -175,9 +172,7 @@ impl Model {
         let model = Self {
             scene: scene.clone(),
             translations: translations(&coordinates),
-            magnet_remanence_t: scene.magnet.as_ref().map_or(0.0, |m| m.remanence_t),
             thickness_m: mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max),
-            half_magnet_m: scene.magnet.as_ref().map_or(0.0, |m| 0.5 * m.length_m),
             steps_per_control: (scene.control.step_s / step_s).round() as u32,
             step_s,
             system,
@@ -226,21 +221,18 @@ impl Model {
 
 impl Program {
     fn new(scene: &Scene, mesh: &Mesh) -> Self {
-        let magnetic = scene.magnet.as_ref().filter(|_| mesh.magnets.iter().any(|m| m.present));
-        let drive = scene.drive.as_ref().map(DriveModel::new);
+        let magnetic = mesh.magnets.iter().any(|magnet| magnet.present);
+        let drive = scene.drive.as_ref().filter(|_| magnetic);
+        let field = scene.field.as_ref().filter(|_| magnetic);
         Self {
             gravity_m_s2: (scene.gravity_m_s2 > 0.0).then(|| gravity(scene)),
-            magnetics: magnetic
-                .zip(scene.drive.as_ref())
-                .map(|(magnet, drive)| Magnetics::new(scene, magnet, drive)),
-            uniform_field: magnetic.zip(scene.field.as_ref()).map(|(magnet, field)| {
-                UniformTorque {
-                    field_t: [field.x_t, field.y_t, field.z_t],
-                    magnet: UniformField::new(magnetics::cuboid(magnet)),
-                }
+            magnetics: drive.map(|drive| Magnetics::new(scene, mesh, drive)),
+            uniform_field: field.map(|field| UniformTorque {
+                field_t: [field.x_t, field.y_t, field.z_t],
+                magnets: mesh.magnets.iter().map(|m| UniformField::new(m.cuboid())).collect(),
             }),
             ground: scene.ground.as_ref().map(|ground| ground_law(ground, scene, mesh)),
-            drive,
+            drive: scene.drive.as_ref().map(DriveModel::new),
         }
     }
 }
@@ -280,13 +272,20 @@ fn ground_law(ground: &Ground, scene: &Scene, mesh: &Mesh) -> GroundLaw {
 }
 
 fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
-    let rubber_m3: f64 = (0..mesh.elements.len())
-        .map(|e| mesh.element_length_m(e) * mesh.elements[e].thickness_m * mesh.width_m)
-        .sum();
-    let magnet_kg = scene.magnet.as_ref().map_or(0.0, |magnet| {
-        magnet.density_kg_m3 * magnet.length_m * magnet.width_m * magnet.height_m
-    });
-    scene.material.density_kg_m3 * rubber_m3 + magnet_kg * mesh.magnets.len() as f64
+    let rubber_m3: f64 = (0..mesh.elements.len()).map(|e| mesh.volume_m3(e)).sum();
+    scene.material.density_kg_m3 * rubber_m3 + magnets_kg(mesh)
+}
+
+/// Mass of all magnets: one product for those that are alike.
+fn magnets_kg(mesh: &Mesh) -> f64 {
+    let mut left_kg: Vec<f64> = mesh.magnets.iter().map(MeshMagnet::mass_kg).collect();
+    let mut total_kg = 0.0;
+    while let Some(&mass_kg) = left_kg.first() {
+        let before = left_kg.len();
+        left_kg.retain(|other_kg| *other_kg != mass_kg);
+        total_kg += mass_kg * (before - left_kg.len()) as f64;
+    }
+    total_kg
 }
 
 fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Stretch> {
@@ -295,7 +294,8 @@ fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
         .filter(flexible)
         .map(|element| {
             let rest_m = mesh.element_length_m(element);
-            let area_m2 = mesh.width_m * mesh.elements[element].thickness_m;
+            let Element { thickness_m, width_m, .. } = mesh.elements[element];
+            let area_m2 = width_m * thickness_m;
             Stretch {
                 element,
                 rest_m,
@@ -307,21 +307,20 @@ fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
 }
 
 fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Bend> {
-    let width_m = mesh.width_m;
     let modulus_pa = scene.material.youngs_modulus_pa;
     let shear_modulus_pa = modulus_pa / (2.0 * (1.0 + scene.material.poisson_ratio));
     // Two halves of elements in series; a rigid element does not yield.
-    let in_series = |node: usize, rigidity_n_m2: &dyn Fn(f64) -> f64| {
+    let in_series = |node: usize, rigidity_n_m2: &dyn Fn(f64, f64) -> f64| {
         let compliance = |element: usize| {
-            let Element { thickness_m, magnet } = mesh.elements[element];
+            let Element { thickness_m, width_m, magnet } = mesh.elements[element];
             let half_m = 0.5 * mesh.element_length_m(element);
-            if magnet.is_some() { 0.0 } else { half_m / rigidity_n_m2(thickness_m) }
+            if magnet.is_some() { 0.0 } else { half_m / rigidity_n_m2(thickness_m, width_m) }
         };
         1.0 / (compliance(node - 1) + compliance(node))
     };
-    let up = |h: f64| modulus_pa * (width_m * cube(h) / 12.0);
-    let across = |h: f64| modulus_pa * (h * cube(width_m) / 12.0);
-    let twist = |h: f64| shear_modulus_pa * torsion_constant_m4(width_m, h);
+    let up = |h: f64, w: f64| modulus_pa * (w * cube(h) / 12.0);
+    let across = |h: f64, w: f64| modulus_pa * (h * cube(w) / 12.0);
+    let twist = |h: f64, w: f64| shear_modulus_pa * torsion_constant_m4(w, h);
     (1..mesh.elements.len())
         .map(|node| Bend {
             node,

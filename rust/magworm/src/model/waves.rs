@@ -149,7 +149,7 @@ fn bending(model: &Model, masses: &Masses, axis: usize) -> Line {
     let mut line = Line::new(mass, springs.collect());
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         let (m, turn) = (masses.magnet(body), masses.turn(body, 3 - axis));
-        let turn = turn / (model.half_magnet_m * model.half_magnet_m);
+        let turn = turn / (magnet.half_length_m * magnet.half_length_m);
         line.couple(magnet.element, 0.25 * (m + turn), 0.25 * (m - turn));
     }
     line

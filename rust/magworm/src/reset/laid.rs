@@ -137,7 +137,7 @@ impl<'a> Bent<'a> {
     fn section_height_m(&self, model: &Model, element: usize, node: usize) -> f64 {
         let (t, u) = (self.tangent(element), self.up(element));
         let thick_m = model.mesh.elements[element].thickness_m * u.y.abs();
-        let wide_m = model.mesh.width_m * t.cross(&u).y.abs();
+        let wide_m = model.mesh.elements[element].width_m * t.cross(&u).y.abs();
         self.node(node).y - 0.5 * (thick_m + wide_m)
     }
 }

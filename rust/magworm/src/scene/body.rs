@@ -10,6 +10,8 @@ pub enum Body {
     Worm(Worm),
     /// A rod of constant section.
     Rod(Rod),
+    /// Segments that each have their own section and magnet; what worms and rods are made of, too.
+    Segments(Segments),
 }
 
 /// Feet joined by bridges: length = (magnets − 1) · pitch + foot length.
@@ -82,6 +84,66 @@ pub struct RodMagnet {
     pub polarity: i8,
 }
 
+/// Segments in a line, head first.
+///
+/// The corners of feet may touch the ground; where no segment is a foot, every node of the body may.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Segments {
+    /// Whether the head end is clamped.
+    #[serde(default)]
+    pub clamp: Clamp,
+    /// The segments.
+    pub segment: Vec<Segment>,
+}
+
+/// A length of constant rectangular section, with a magnet or without.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Segment {
+    /// Length along the body [m].
+    pub length_m: f64,
+    /// Thickness, along y of the rest body [m].
+    pub thickness_m: f64,
+    /// Width, along z of the rest body [m].
+    pub width_m: f64,
+    /// Whether it is a foot, whose corners stand on the ground and turn with its magnet.
+    #[serde(default)]
+    pub foot: bool,
+    /// Rod elements in it; where it holds a magnet, on each side of the magnet.
+    pub elements: usize,
+    /// The magnet that it holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub magnet: Option<SegmentMagnet>,
+}
+
+/// A cuboid permanent magnet in a segment, its edges along the segment's.
+///
+/// Angles and places are those of the rest body: along it from head to tail, up, and to its side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SegmentMagnet {
+    /// Edge along the body [m].
+    pub length_m: f64,
+    /// Edge along the width [m].
+    pub width_m: f64,
+    /// Edge along the thickness [m].
+    pub height_m: f64,
+    /// Magnitude of the remanence |Br| [T].
+    pub remanence_t: f64,
+    /// Density [kg/m³].
+    pub density_kg_m3: f64,
+    /// Direction of the remanence from up [°]: 0 is up, 180 down.
+    #[serde(default)]
+    pub angle_deg: f64,
+    /// Place of its centre from that of the segment, towards the tail [m].
+    #[serde(default)]
+    pub along_m: f64,
+    /// Whether it is in its place; else its cavity is filled with rubber, and the segment is as stiff as before.
+    #[serde(default = "present")]
+    pub present: bool,
+}
+
 /// Rubber: linear elastic with Kelvin–Voigt damping, σ = E (ε + τ ε̇).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -117,6 +179,10 @@ pub struct Magnet {
 
 fn one() -> i8 {
     1
+}
+
+fn present() -> bool {
+    true
 }
 
 fn incompressible() -> f64 {

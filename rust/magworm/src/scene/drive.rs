@@ -61,6 +61,17 @@ pub enum Arrangement {
     },
 }
 
+impl Arrangement {
+    /// Number of magnets.
+    pub fn magnets(&self) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Pair { .. } => 2,
+            Self::Belt { count, .. } => *count,
+        }
+    }
+}
+
 /// Motion of the drive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]

@@ -6,10 +6,12 @@ use super::Scene;
 use super::accuracy;
 use super::check::{Place, TAG};
 use super::error::{Problem, SceneError};
+use super::lines::split_index;
 use super::schema::{Kind, Presence};
 
 impl Scene {
-    /// A copy with fields replaced, one after another, by dotted path: `ground.static_friction`.
+    /// A copy with fields replaced, one after another, by dotted path: `ground.static_friction`, or
+    /// `body.segment[2].thickness_m` in a list, counted from 0.
     ///
     /// A table or list replaces the whole one. `None` takes the field out: an optional table is then
     /// left out of the simulation, a field with a default returns to it. A path into an absent
@@ -31,31 +33,76 @@ impl Scene {
     }
 }
 
+/// Replaces the field at a path within a table.
 fn replace(
     values: &mut Table,
     place: &Place,
     path: &str,
     value: Option<&Value>,
 ) -> Result<(), Problem> {
-    let (name, rest) = path.split_once('.').map_or((path, None), |(name, rest)| (name, Some(rest)));
-    let field = place.field(name).ok_or_else(|| place.unknown(name))?;
-    let Some(rest) = rest else {
-        return match value {
-            None if field.presence == Presence::Required => {
-                Err(Problem::Needed { field: place.path_of(name), table: place.title() })
-            }
-            None => {
-                values.remove(name);
-                Ok(())
-            }
-            Some(value) => {
-                values.insert(name.into(), value.clone());
-                Ok(())
-            }
-        };
-    };
-    let inner = values.entry(name).or_insert_with(|| Value::Table(Table::new()));
-    replace_within(inner, place.path_of(name), &field.kind, rest, value)
+    let (part, rest) = path.split_once('.').map_or((path, None), |(part, rest)| (part, Some(rest)));
+    let (name, index) = split_index(part);
+    let field = place.field(name).ok_or_else(|| place.unknown(part))?;
+    let here = place.path_of(name);
+    match (index, &field.kind, rest, value) {
+        (Some(index), Kind::List { of, .. }, ..) => {
+            let entry = entry(values.get_mut(name), &here, index)?;
+            replace_entry(entry, format!("{here}[{index}]"), of, rest, value)
+        }
+        (Some(_), ..) => Err(place.unknown(part)),
+        (None, kind, Some(rest), _) => {
+            let inner = values.entry(name).or_insert_with(|| Value::Table(Table::new()));
+            replace_within(inner, here, kind, rest, value)
+        }
+        (None, _, None, Some(value)) => {
+            values.insert(name.into(), value.clone());
+            Ok(())
+        }
+        (None, _, None, None) if field.presence == Presence::Required => {
+            Err(Problem::Needed { field: here, table: place.title() })
+        }
+        (None, _, None, None) => {
+            values.remove(name);
+            Ok(())
+        }
+    }
+}
+
+/// An entry of a list, which must be there.
+fn entry<'a>(
+    list: Option<&'a mut Value>,
+    path: &str,
+    index: usize,
+) -> Result<&'a mut Value, Problem> {
+    let list = list.and_then(Value::as_array_mut);
+    let count = list.as_ref().map_or(0, |list| list.len());
+    let entry = list.and_then(|list| list.get_mut(index));
+    entry.ok_or_else(|| Problem::Value {
+        field: path.into(),
+        value: format!("a list of {count}"),
+        allowed: format!("{} entries or more where [{index}] is replaced", index + 1),
+    })
+}
+
+/// Replaces an entry of a list or goes on inside it.
+fn replace_entry(
+    entry: &mut Value,
+    path: String,
+    kind: &Kind,
+    rest: Option<&str>,
+    value: Option<&Value>,
+) -> Result<(), Problem> {
+    match (rest, value) {
+        (Some(rest), _) => replace_within(entry, path, kind, rest, value),
+        (None, Some(value)) => {
+            *entry = value.clone();
+            Ok(())
+        }
+        (None, None) => {
+            let table = path.rsplit_once('[').map_or("", |(list, _)| list).into();
+            Err(Problem::Needed { field: path, table })
+        }
+    }
 }
 
 /// Goes on inside the value at `path`.

@@ -7,6 +7,10 @@ use super::schema::{Kind, Table, Variant, optional, real, required, whole};
 
 /// Most magnets in a body.
 pub(super) const MOST_MAGNETS: i64 = 32;
+/// Most segments of a body.
+const MOST_SEGMENTS: usize = 100;
+/// Shortest rod element [m]: shorter ones make the stiffness of a step too badly scaled to solve.
+pub(super) const SHORTEST_ELEMENT_M: f64 = 1e-5;
 /// Most drive magnets.
 pub(super) const MOST_DRIVE_MAGNETS: i64 = 16;
 /// Most steps for which a wrench acts.
@@ -23,6 +27,7 @@ pub(super) const MOST_WAYPOINTS: usize = 10_000;
 
 const EDGE: Kind = real("m", 1e-4, 0.5);
 const THICKNESS: Kind = real("m", 1e-4, 0.03);
+const OFFSET: Kind = real("m", -0.5, 0.5);
 const REMANENCE: Kind = real("T", 0.0, 10.0);
 const DENSITY: Kind = real("kg/m³", 1.0, 1e5);
 const POSITION: Kind = real("m", -10.0, 10.0);
@@ -55,8 +60,11 @@ pub(super) static SCENE: Table = Table {
     ],
 };
 
-const BODY: &[Variant] =
-    &[Variant { name: "worm", table: &WORM }, Variant { name: "rod", table: &ROD }];
+const BODY: &[Variant] = &[
+    Variant { name: "worm", table: &WORM },
+    Variant { name: "rod", table: &ROD },
+    Variant { name: "segments", table: &SEGMENTS },
+];
 
 static WORM: Table = Table {
     fields: &[
@@ -86,6 +94,37 @@ static ROD: Table = Table {
 
 static ROD_MAGNET: Table = Table {
     fields: &[required("position_m", real("m", 0.0, 10.0)), required("polarity", Kind::Polarity)],
+};
+
+static SEGMENTS: Table = Table {
+    fields: &[
+        optional("clamp", Kind::Choice(&["none", "head"])),
+        required("segment", Kind::List { of: &Kind::Table(&SEGMENT), most: MOST_SEGMENTS }),
+    ],
+};
+
+static SEGMENT: Table = Table {
+    fields: &[
+        required("length_m", real("m", SHORTEST_ELEMENT_M, 10.0)),
+        required("thickness_m", THICKNESS),
+        required("width_m", EDGE),
+        optional("foot", Kind::Flag),
+        required("elements", whole(1, 999)),
+        optional("magnet", Kind::Table(&SEGMENT_MAGNET)),
+    ],
+};
+
+static SEGMENT_MAGNET: Table = Table {
+    fields: &[
+        required("length_m", EDGE),
+        required("width_m", EDGE),
+        required("height_m", EDGE),
+        required("remanence_t", REMANENCE),
+        required("density_kg_m3", DENSITY),
+        optional("angle_deg", TURN),
+        optional("along_m", OFFSET),
+        optional("present", Kind::Flag),
+    ],
 };
 
 static MATERIAL: Table = Table {

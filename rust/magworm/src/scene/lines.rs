@@ -49,7 +49,7 @@ fn element<'a, 'i>(
 }
 
 /// `vary[1]` is `vary` and 1.
-fn split_index(part: &str) -> (&str, Option<usize>) {
+pub(super) fn split_index(part: &str) -> (&str, Option<usize>) {
     match part.strip_suffix(']').and_then(|part| part.split_once('[')) {
         Some((name, index)) => (name, index.parse().ok()),
         None => (part, None),

@@ -22,15 +22,19 @@ mod parse;
 mod preset;
 mod rules;
 mod schema;
+mod segments;
 mod solver;
 mod surroundings;
 mod validate;
 
-pub use body::{Body, Clamp, Magnet, Material, Rod, RodMagnet, Worm};
+pub use body::{
+    Body, Clamp, Magnet, Material, Rod, RodMagnet, Segment, SegmentMagnet, Segments, Worm,
+};
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
+pub(crate) use segments::Plan;
 pub use solver::{
     Control, Curvature, Integrator, MagnetModel, Parameter, Precision, Reset, Solver, Start,
     Variation,
@@ -52,11 +56,11 @@ pub struct Scene {
     /// Dimensions of the motion: 2 is the plane x–y, 3 is space.
     #[serde(default = "plane")]
     pub dimensions: usize,
-    /// The soft body: a worm with feet or a uniform rod.
+    /// The soft body: a worm with feet, a uniform rod, or segments of one's own.
     pub body: Body,
     /// Its rubber.
     pub material: Material,
-    /// The body magnets, all of one kind; needed where the body has any.
+    /// The magnets of a worm or a rod, all of one kind; needed where the body has any. Segments describe their own.
     #[serde(default)]
     pub magnet: Option<Magnet>,
     /// Flat ground; none leaves contact out.

@@ -46,7 +46,7 @@ impl<const W: usize, N: Number> Block<W, N> {
         match model.coordinates.anchors[node] {
             Anchor::Free { dof } => self.vector(&self.q, dof, axes, lane),
             Anchor::Rigid { body, side } => {
-                let arm = f64::from(side) * model.half_magnet_m;
+                let arm = f64::from(side) * model.mesh.magnets[body].half_length_m;
                 let dof = model.coordinates.bodies[body];
                 self.vector(&self.q, dof, axes, lane) + self.tangent(model, body, lane) * arm
             }

@@ -3,19 +3,24 @@
 use magworm::scene::*;
 
 use super::dice::Dice;
+use super::segments::segments;
 
 /// A little more than the shortest element, so that rounding does not matter [m].
-const ELEMENT_M: f64 = 1.01e-5;
+pub const ELEMENT_M: f64 = 1.01e-5;
 /// Shortest and longest edge [m].
-const EDGE_M: (f64, f64) = (1e-4, 0.5);
+pub const EDGE_M: (f64, f64) = (1e-4, 0.5);
 
 pub fn body(dice: &mut Dice, most_nodes: usize) -> (Body, Option<Magnet>) {
     let most_nodes = most_nodes.clamp(6, 1000);
-    if dice.coin() { worm(dice, most_nodes) } else { rod(dice, most_nodes) }
+    match dice.one_of(&[0, 1, 2]) {
+        0 => worm(dice, most_nodes),
+        1 => rod(dice, most_nodes),
+        _ => (segments(dice, most_nodes), None),
+    }
 }
 
 /// How many of `most` elements fit into a length.
-fn fitting(length_m: f64, most: usize) -> usize {
+pub fn fitting(length_m: f64, most: usize) -> usize {
     ((length_m / ELEMENT_M) as usize).clamp(1, most)
 }
 
@@ -32,7 +37,7 @@ fn magnet(dice: &mut Dice, length_m: f64, at_end: bool, section_m: (f64, f64)) -
 }
 
 /// Thickness and width of a body.
-fn section(dice: &mut Dice) -> (f64, f64) {
+pub fn section(dice: &mut Dice) -> (f64, f64) {
     (dice.decades(1e-4, 0.03), dice.decades(1.01 * EDGE_M.0, EDGE_M.1))
 }
 

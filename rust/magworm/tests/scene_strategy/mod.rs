@@ -4,6 +4,7 @@ pub mod bends;
 mod body;
 pub mod dice;
 mod drive;
+mod segments;
 
 use magworm::model::Model;
 use magworm::scene::*;
@@ -14,7 +15,7 @@ use dice::{Dice, dice};
 /// Valid scenes of 2 or 3 dimensions whose bodies have at most `most_nodes` nodes (6 or more, at
 /// most 1000).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
-    let body = dice(24).prop_map(move |mut dice| body::body(&mut dice, most_nodes));
+    let body = dice(segments::NUMBERS).prop_map(move |mut dice| body::body(&mut dice, most_nodes));
     let drive =
         prop::option::of(dice(96).prop_map(move |mut dice| drive::drive(&mut dice, dimensions)));
     let ground = prop::option::of(dice(5).prop_map(|mut dice| ground(&mut dice)));

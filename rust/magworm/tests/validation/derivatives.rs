@@ -31,7 +31,7 @@ impl Cut<'_> {
         let soft = |e: &usize| mesh.elements[*e].magnet.is_none();
         let mut out = Vec::new();
         for e in (0..mesh.elements.len()).filter(soft) {
-            let area = mesh.width_m * mesh.elements[e].thickness_m;
+            let area = mesh.elements[e].width_m * mesh.elements[e].thickness_m;
             let value = edge(e)[0].hypot(edge(e)[1]) - rest(e);
             out.push(Strain { value, stiffness: modulus * area / rest(e), axial: true });
         }
@@ -41,7 +41,8 @@ impl Cut<'_> {
             let half = |e: usize| match mesh.elements[e].magnet {
                 Some(_) => 0.0,
                 None => {
-                    6.0 * rest(e) / (modulus * mesh.width_m * mesh.elements[e].thickness_m.powi(3))
+                    let section = mesh.elements[e];
+                    6.0 * rest(e) / (modulus * section.width_m * section.thickness_m.powi(3))
                 }
             };
             let stiffness = 1.0 / (half(i - 1) + half(i));
@@ -66,7 +67,7 @@ fn nodes(world: &World, q: &[f64]) -> Vec<[f64; 2]> {
             Anchor::Free { dof } => [q[dof], q[dof + 1]],
             Anchor::Rigid { body, side } => {
                 let dof = coordinates.bodies[body];
-                let arm = f64::from(side) * world.model.half_magnet_m;
+                let arm = f64::from(side) * world.model.mesh.magnets[body].half_length_m;
                 [q[dof] + arm * q[dof + 2].cos(), q[dof + 1] + arm * q[dof + 2].sin()]
             }
             Anchor::Fixed => [world.block.held[2 * node][0], world.block.held[2 * node + 1][0]],

@@ -47,7 +47,8 @@ impl Shape {
                 Anchor::Rigid { body, side } => {
                     let first = coordinates.bodies[body];
                     let e = world.model.mesh.magnets[body].element;
-                    let arm = self.tangent(e) * (f64::from(side) * world.model.half_magnet_m);
+                    let arm = self.tangent(e)
+                        * (f64::from(side) * world.model.mesh.magnets[body].half_length_m);
                     let motion = dof.checked_sub(first).filter(|k| *k < 6);
                     match motion {
                         Some(k) if k < 3 => after.place[node][k] += by,
@@ -77,19 +78,22 @@ impl Shape {
     /// ups, with half elements in series; and the angle about t_f from u_e, carried over, to u_f.
     fn strains(&self, world: &World) -> Vec<Strain> {
         let (mesh, scene) = (&world.model.mesh, &world.model.scene);
-        let (modulus, w) = (scene.material.youngs_modulus_pa, mesh.width_m);
+        let modulus = scene.material.youngs_modulus_pa;
         let shear = modulus / (2.0 * (1.0 + scene.material.poisson_ratio));
         let rest = |e: usize| mesh.arc_m[e + 1] - mesh.arc_m[e];
         let soft = |e: usize| mesh.elements[e].magnet.is_none();
         let mut out = Vec::new();
         for e in (0..self.up.len()).filter(|&e| soft(e) && e + 2 > mesh.fixed_nodes) {
             let value = (self.place[e + 1] - self.place[e]).norm() - rest(e);
-            let stiffness = modulus * w * mesh.elements[e].thickness_m / rest(e);
+            let stiffness =
+                modulus * mesh.elements[e].width_m * mesh.elements[e].thickness_m / rest(e);
             out.push(Strain { value, stiffness, element: Some(e) });
         }
-        let series = |node: usize, rigidity: &dyn Fn(f64) -> f64| {
+        let series = |node: usize, rigidity: &dyn Fn(f64, f64) -> f64| {
             let half = |e: usize| match soft(e) {
-                true => 0.5 * rest(e) / rigidity(mesh.elements[e].thickness_m),
+                true => {
+                    0.5 * rest(e) / rigidity(mesh.elements[e].thickness_m, mesh.elements[e].width_m)
+                }
                 false => 0.0,
             };
             1.0 / (half(node - 1) + half(node))
@@ -112,9 +116,9 @@ impl Shape {
                 twist,
             ];
             let stiffness = [
-                series(node, &|h| modulus * w * h.powi(3) / 12.0),
-                series(node, &|h| modulus * h * w.powi(3) / 12.0),
-                series(node, &|h| {
+                series(node, &|h, w| modulus * w * h.powi(3) / 12.0),
+                series(node, &|h, w| modulus * h * w.powi(3) / 12.0),
+                series(node, &|h, w| {
                     let (long, short) = (w.max(h), w.min(h));
                     let ratio = short / long;
                     let form = 1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio.powi(4) / 12.0);

@@ -1,18 +1,17 @@
 //! Rules of the body and its magnets: feet, bridges, and what rods share with them.
 
 use super::super::error::Problem;
+use super::super::fields::SHORTEST_ELEMENT_M;
 use super::super::schema::quantity;
+use super::super::segments::NOTHING;
 use super::super::{Body, Magnet, Scene, Worm};
 use super::rod::check_rod;
+use super::segments::check_segments;
 use super::{no_longer, require, rounded};
 
-/// Shortest rod element [m]: shorter ones make the stiffness of a step too badly scaled to solve.
-pub(super) const SHORTEST_ELEMENT_M: f64 = 1e-5;
-/// Lengths below this part of a foot or an element are none: 0.049 + 0.005 misses 0.054 by rounding.
-pub(super) const NOTHING: f64 = 1e-9;
 /// Largest part of its section that a magnet may fill where the body ends with it: the last node
 /// needs rubber for its mass.
-const FULLEST_END: f64 = 1.0 - 1e-6;
+pub(super) const FULLEST_END: f64 = 1.0 - 1e-6;
 /// Most nodes of a body.
 pub(super) const MOST_NODES: usize = 1000;
 
@@ -21,6 +20,12 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
         (Body::Worm(worm), Some(magnet)) => check_worm(worm, magnet),
         (Body::Rod(rod), magnet) if rod.magnets.is_empty() => check_rod(rod, magnet.as_ref()),
         (Body::Rod(rod), Some(magnet)) => check_rod(rod, Some(magnet)),
+        (Body::Segments(body), None) => check_segments(body),
+        (Body::Segments(_), Some(_)) => Err(Problem::Value {
+            field: "magnet".into(),
+            value: "a table".into(),
+            allowed: "none where body.kind is \"segments\", which hold their own magnets".into(),
+        }),
         (_, None) => Err(Problem::Missing {
             field: "magnet".into(),
             allowed: "a table that describes the magnets of the body".into(),

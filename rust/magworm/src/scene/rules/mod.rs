@@ -3,6 +3,7 @@
 mod body;
 mod drive;
 mod rod;
+mod segments;
 mod space;
 mod start;
 mod time;

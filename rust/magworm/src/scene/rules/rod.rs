@@ -1,11 +1,11 @@
 //! Rules of a rod and the magnets in it.
 
 use super::super::error::Problem;
+use super::super::fields::SHORTEST_ELEMENT_M;
 use super::super::schema::{number, quantity};
+use super::super::segments::NOTHING;
 use super::super::{Clamp, Magnet, Rod};
-use super::body::{
-    MOST_NODES, NOTHING, SHORTEST_ELEMENT_M, elements_long_enough, rubber_at_the_end,
-};
+use super::body::{MOST_NODES, elements_long_enough, rubber_at_the_end};
 use super::{no_longer, require, rounded};
 
 /// Shortest gap beside a magnet, less rounding [m].

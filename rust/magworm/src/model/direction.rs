@@ -1,0 +1,46 @@
+//! Direction of a magnet's remanence in the frame of its segment.
+
+use crate::lanes::math::{radians, sin_cos};
+
+/// Along the body, up and to the side: `angle_deg` from up towards the head, then `aside_deg` out of that plane [°].
+/// Quarter turns are exact.
+pub(super) fn direction(angle_deg: f64, aside_deg: f64) -> [f64; 3] {
+    let (sin, cos) = sin_cos_deg(angle_deg);
+    let (aside, flat) = sin_cos_deg(aside_deg);
+    // Adding 0 turns −0 into 0.
+    [-sin * flat + 0.0, cos * flat + 0.0, aside + 0.0]
+}
+
+/// Sine and cosine of an angle in degrees, by quarter turns and the rest.
+fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
+    let quarters = (angle_deg / 90.0).round();
+    let (sin, cos) = sin_cos(radians(angle_deg - 90.0 * quarters));
+    match quarters.rem_euclid(4.0) as u8 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::direction;
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        assert_eq!(direction(0.0, 0.0), [0.0, 1.0, 0.0]);
+        assert_eq!(direction(90.0, 0.0), [-1.0, 0.0, 0.0]);
+        assert_eq!(direction(-90.0, 0.0), [1.0, 0.0, 0.0]);
+        assert_eq!(direction(-180.0, 0.0), [0.0, -1.0, 0.0]);
+        assert_eq!(direction(30.0, 90.0), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn other_angles_lean_towards_the_head_and_aside() {
+        let [along, up, side] = direction(30.0, -20.0);
+        let (flat, root) = (0.939_692_620_785_908_4, 0.866_025_403_784_438_6);
+        assert!((along + 0.5 * flat).abs() < 1e-15 && (up - root * flat).abs() < 1e-15);
+        assert!((side + 0.342_020_143_325_668_7).abs() < 1e-15);
+    }
+}
