@@ -14,7 +14,7 @@ from pathlib import Path
 from blocks import write_or_check
 
 RESULTS = Path(__file__).parent / "results"
-COMPARISONS = ("crawl",)
+COMPARISONS = ("crawl", "turn")
 
 
 def block(report: str) -> str:
