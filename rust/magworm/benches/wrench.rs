@@ -35,7 +35,7 @@ fn poses() -> Vec<Row> {
 struct Sweep<'a>(&'a PlanarPair, &'a [Row]);
 impl WideTask for Sweep<'_> {
     type Output = Vec<[[f64; WIDE]; 3]>;
-    fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) -> Self::Output {
+    fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) -> Self::Output {
         let mut wrenches = vec![[[0.0; WIDE]; 3]; self.1.len()];
         isa.vectorize(
             #[inline(always)]

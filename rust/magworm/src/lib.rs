@@ -1,6 +1,6 @@
 //! Batched simulator of magnet-driven soft worms (MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167).
 //!
-//! `Scene` (what a person writes) → [`model::Model`] (compiled, shared) → [`state::Block`] (the state of W
+//! `Scene` (what a person writes) → [`model::Model`] (compiled, shared) → [`state::Block`] (the state of
 //! environments, one per lane) → [`step`] → [`observe`]. A [`state::Batch`] holds many blocks and runs
 //! them on all cores.
 //!

@@ -4,8 +4,8 @@
 //! all components are of the order of one.
 
 use crate::drive::Path;
-use crate::lanes::Number;
 use crate::lanes::math::{atan2, sin_cos};
+use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::scene::Body;
 use crate::state::Block;
@@ -152,12 +152,7 @@ pub fn action(model: &Model) -> Vec<Specification> {
 }
 
 /// Writes the observation of one lane.
-pub fn write<const W: usize, N: Number>(
-    model: &Model,
-    block: &Block<W, N>,
-    lane: usize,
-    row: &mut [f32],
-) {
+pub fn write<R: Row>(model: &Model, block: &Block<R>, lane: usize, row: &mut [f32]) {
     let rest = if model.dimensions() == 2 {
         write_planar(model, block, lane, row)
     } else {
@@ -169,12 +164,7 @@ pub fn write<const W: usize, N: Number>(
 }
 
 /// Writes all but the action; how many numbers that are.
-fn write_planar<const W: usize, N: Number>(
-    model: &Model,
-    block: &Block<W, N>,
-    lane: usize,
-    row: &mut [f32],
-) -> usize {
+fn write_planar<R: Row>(model: &Model, block: &Block<R>, lane: usize, row: &mut [f32]) -> usize {
     let per_length = 1.0 / length_scale_m(model);
     let per_speed = 1.0 / speed_scale_m_s(model);
     let scale = [per_length, per_length, 1.0, per_speed, per_speed, per_speed / per_length];
@@ -201,12 +191,7 @@ fn write_planar<const W: usize, N: Number>(
 }
 
 /// Writes all but the action; how many numbers that are.
-fn write_spatial<const W: usize, N: Number>(
-    model: &Model,
-    block: &Block<W, N>,
-    lane: usize,
-    row: &mut [f32],
-) -> usize {
+fn write_spatial<R: Row>(model: &Model, block: &Block<R>, lane: usize, row: &mut [f32]) -> usize {
     let (length, speed) = (length_scale_m(model), speed_scale_m_s(model));
     let rate = speed / length;
     let [x, z, heading] = block.robot_pose(model, lane);

@@ -5,8 +5,8 @@ mod laid;
 use laid::{Bent, Laid, Straight};
 
 use crate::drive::{DriveModel, Path, StageModel, stage_axes};
-use crate::lanes::Number;
 use crate::lanes::math::{radians, sin_cos};
+use crate::lanes::{Number, Row};
 use crate::model::{Anchor, Model};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
@@ -67,12 +67,12 @@ pub fn scene_start(model: &Model) -> StartPose {
 }
 
 /// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
-pub fn rest<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, lane: usize) {
+pub fn rest<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
     for row in block.factors.iter_mut() {
-        row[lane] = N::of(1.0);
+        row[lane] = R::Number::of(1.0);
     }
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        block.present[body][lane] = N::of(f64::from(u8::from(magnet.present)));
+        block.present[body][lane] = R::Number::of(f64::from(u8::from(magnet.present)));
     }
     lay(model, block, lane, scene_start(model));
     apply_parameters(model, block, lane);
@@ -80,9 +80,9 @@ pub fn rest<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, l
 }
 
 /// Starts an episode in one lane.
-pub fn reset<const W: usize, N: Number>(
+pub fn reset<R: Row>(
     model: &Model,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     lane: usize,
     start: StartPose,
     factors: &[f64],
@@ -90,15 +90,15 @@ pub fn reset<const W: usize, N: Number>(
     mut draws: Draws,
 ) {
     for (k, &factor) in factors.iter().enumerate() {
-        block.factors[k][lane] = N::of(factor);
+        block.factors[k][lane] = R::Number::of(factor);
     }
     for variation in &model.scene.reset.vary {
         let drawn = draws.uniform(variation.low, variation.high);
         let factor = &mut block.factors[variation.parameter as usize][lane];
-        *factor = N::of(factor.f64() * drawn);
+        *factor = R::Number::of(factor.f64() * drawn);
     }
     for (body, &is_in) in present.iter().enumerate() {
-        block.present[body][lane] = N::of(f64::from(u8::from(is_in)));
+        block.present[body][lane] = R::Number::of(f64::from(u8::from(is_in)));
     }
     lay(model, block, lane, start);
     apply_parameters(model, block, lane);
@@ -109,44 +109,34 @@ pub fn reset<const W: usize, N: Number>(
 }
 
 /// Lays the body of one lane down, at rest.
-fn lay<const W: usize, N: Number>(
-    model: &Model,
-    block: &mut Block<W, N>,
-    lane: usize,
-    start: StartPose,
-) {
+fn lay<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, start: StartPose) {
     for rows in block.state_rows_mut().into_iter().take(6) {
-        rows.iter_mut().for_each(|row| row[lane] = N::default());
+        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
     }
     for rows in [&mut block.twist, &mut block.wrench] {
-        rows.iter_mut().for_each(|row| row[lane] = N::default());
+        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
     }
-    block.step_count[0][lane] = N::default();
+    block.step_count[0][lane] = R::Number::default();
     match &model.shape {
         None => put(model, block, lane, &Straight::new(model, start)),
         Some(shape) => {
             put(model, block, lane, &Bent::new(model, shape, start));
             for (row, [_, _, twist]) in block.twist.iter_mut().zip(&shape.strains) {
-                row[lane] = N::of(*twist);
+                row[lane] = R::Number::of(*twist);
             }
         }
     }
 }
 
 /// Puts nodes, magnets and frames where they are laid.
-fn put<const W: usize, N: Number>(
-    model: &Model,
-    block: &mut Block<W, N>,
-    lane: usize,
-    laid: &impl Laid,
-) {
+fn put<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, laid: &impl Laid) {
     let axes = model.dimensions();
     for (node, anchor) in model.coordinates.anchors.iter().enumerate() {
         let place = laid.node(node);
         for axis in 0..axes {
             match *anchor {
-                Anchor::Free { dof } => block.q[dof + axis][lane] = N::of(place[axis]),
-                Anchor::Fixed => block.held[axes * node + axis][lane] = N::of(place[axis]),
+                Anchor::Free { dof } => block.q[dof + axis][lane] = R::Number::of(place[axis]),
+                Anchor::Fixed => block.held[axes * node + axis][lane] = R::Number::of(place[axis]),
                 Anchor::Rigid { .. } => {}
             }
         }
@@ -155,48 +145,44 @@ fn put<const W: usize, N: Number>(
         let element = model.mesh.magnets[body].element;
         let middle = laid.middle(element);
         for axis in 0..axes {
-            block.q[dof + axis][lane] = N::of(middle[axis]);
+            block.q[dof + axis][lane] = R::Number::of(middle[axis]);
         }
         if axes == 2 {
-            block.q[dof + 2][lane] = N::of(laid.angle_rad(element));
+            block.q[dof + 2][lane] = R::Number::of(laid.angle_rad(element));
         }
     }
     for (element, rows) in block.director.chunks_exact_mut(6).enumerate() {
         let (up, tangent) = (laid.up(element), laid.tangent(element));
         for axis in 0..3 {
-            rows[axis][lane] = N::of(up[axis]);
-            rows[3 + axis][lane] = N::of(tangent[axis]);
+            rows[axis][lane] = R::Number::of(up[axis]);
+            rows[3 + axis][lane] = R::Number::of(tangent[axis]);
         }
     }
 }
 
 /// Derives masses and remanences of one lane from its factors and magnets. Also after a snapshot.
-pub fn apply_parameters<const W: usize, N: Number>(
-    model: &Model,
-    block: &mut Block<W, N>,
-    lane: usize,
-) {
-    let factor = |block: &Block<W, N>, p: Parameter| block.factors[p as usize][lane].f64();
+pub fn apply_parameters<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
+    let factor = |block: &Block<R>, p: Parameter| block.factors[p as usize][lane].f64();
     let mass_factor = factor(block, Parameter::Mass);
-    block.mass.iter_mut().for_each(|row| row[lane] = N::default());
+    block.mass.iter_mut().for_each(|row| row[lane] = R::Number::default());
     for part in &model.inertia {
-        let is_in = part.body.is_some_and(|body| block.present[body][lane] == N::of(1.0));
+        let is_in = part.body.is_some_and(|body| block.present[body][lane] == R::Number::of(1.0));
         let cavity = if is_in { part.magnet } else { part.fill };
         let mass = &mut block.mass[part.dof][lane];
-        *mass = N::of(mass.f64() + mass_factor * (part.rubber + cavity));
+        *mass = R::Number::of(mass.f64() + mass_factor * (part.rubber + cavity));
     }
     let remanence_factor = factor(block, Parameter::Remanence);
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         let remanence_t = remanence_factor * magnet.remanence_t * magnet.polarity;
         let is_in = block.present[body][lane].f64();
-        block.remanence[body][lane] = N::of(remanence_t * is_in);
+        block.remanence[body][lane] = R::Number::of(remanence_t * is_in);
     }
 }
 
-fn place_drive<const W: usize, N: Number>(
+fn place_drive<R: Row>(
     model: &Model,
     drive: &DriveModel,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     lane: usize,
     draws: &mut Draws,
 ) {
@@ -214,12 +200,12 @@ fn place_drive<const W: usize, N: Number>(
         Path::Waypoints { point, .. } => point[0],
     };
     for axis in 0..axes {
-        block.stage[axis][lane] = N::of(place[axis]);
-        block.stage[axes + axis][lane] = N::default();
-        block.target[axis][lane] = N::of(place[axis]);
+        block.stage[axis][lane] = R::Number::of(place[axis]);
+        block.stage[axes + axis][lane] = R::Number::default();
+        block.target[axis][lane] = R::Number::of(place[axis]);
     }
-    block.target[axes][lane] = N::default();
-    block.action.iter_mut().for_each(|row| row[lane] = N::default());
+    block.target[axes][lane] = R::Number::default();
+    block.action.iter_mut().for_each(|row| row[lane] = R::Number::default());
 }
 
 /// A place within the limits of a stage, around a robot.

@@ -3,7 +3,7 @@
 //! A block of robots of the scene acts at random from its start pose. The same run is made several times: trajectories are
 //! equal bit for bit, so of each phase in each step the least time counts, and interruptions do not.
 
-use crate::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
+use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::{Model, Phase};
 use crate::reset::{Draws, reset, scene_start};
 use crate::scene::Precision;
@@ -22,19 +22,19 @@ const RUNS: usize = 3;
 /// depends on them.
 pub fn shares(model: &Model) -> Vec<(Phase, f64)> {
     match model.scene.solver.precision {
-        Precision::Double => shares_of::<WIDE, f64>(model),
-        Precision::Single => shares_of::<WIDE_SINGLE, f32>(model),
+        Precision::Double => shares_of::<[f64; WIDE]>(model),
+        Precision::Single => shares_of::<[f32; WIDE_SINGLE]>(model),
     }
 }
 
-fn shares_of<const W: usize, N: Number>(model: &Model) -> Vec<(Phase, f64)>
+fn shares_of<R: Row>(model: &Model) -> Vec<(Phase, f64)>
 where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let phases = model.phases.len();
     let mut least = vec![Duration::MAX; phases * STEPS as usize];
     for _ in 0..RUNS {
-        run::<W, N>(model, &mut least);
+        run::<R>(model, &mut least);
     }
     let of_phase = |phase| least.iter().skip(phase).step_by(phases).map(Duration::as_secs_f64);
     let total: f64 = least.iter().map(Duration::as_secs_f64).sum();
@@ -54,11 +54,11 @@ pub fn explain(model: &Model) -> String {
 }
 
 /// Lowers the times of phases, shape [steps × phases], to those of one more run.
-fn run<const W: usize, N: Number>(model: &Model, least: &mut [Duration])
+fn run<R: Row>(model: &Model, least: &mut [Duration])
 where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
-    let mut block = start::<W, N>(model);
+    let mut block = start::<R>(model);
     for (step, row) in (0..STEPS).zip(least.chunks_mut(model.phases.len())) {
         if step.is_multiple_of(model.steps_per_control) {
             act(model, &mut block, u64::from(step / model.steps_per_control));
@@ -72,10 +72,10 @@ where
 }
 
 /// As many robots as a block has lanes at the scene's start pose.
-fn start<const W: usize, N: Number>(model: &Model) -> Block<W, N> {
+fn start<R: Row>(model: &Model) -> Block<R> {
     let mut block = Block::new(model);
     let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         let draws = Draws::new(lane as u64, 0);
         let factors = [1.0; Model::PARAMETERS.len()];
         reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
@@ -84,9 +84,9 @@ fn start<const W: usize, N: Number>(model: &Model) -> Block<W, N> {
 }
 
 /// A random action for each robot, held for four control steps.
-fn act<const W: usize, N: Number>(model: &Model, block: &mut Block<W, N>, control_step: u64) {
+fn act<R: Row>(model: &Model, block: &mut Block<R>, control_step: u64) {
     let Some(drive) = &model.program.drive else { return };
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         let mut draws = Draws::new(lane as u64, 1000 + control_step / 4);
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
         command(model, drive, block, lane, &action);
@@ -128,7 +128,7 @@ mod tests {
         let model = Scene::preset("turn-3").and_then(|scene| Model::compile(&scene));
         let model = model.expect("the preset is valid");
         let set = InstructionSet::widest();
-        let (mut whole, mut parts) = (start::<WIDE, f64>(&model), start::<WIDE, f64>(&model));
+        let (mut whole, mut parts) = (start::<[f64; WIDE]>(&model), start::<[f64; WIDE]>(&model));
         whole.advance_on(set, &model, 20);
         for _ in 0..20 {
             model.phases.iter().for_each(|&phase| parts.run_phase_on(set, &model, phase));

@@ -5,7 +5,7 @@ use crate::drive::{DriveModel, Path, StageModel, on_waypoints, stage_axes};
 use crate::elastic;
 use crate::integrate;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Mask, Number, Real};
+use crate::lanes::{Isa, Mask, Number, Real, Row};
 use crate::model::{Model, Phase};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
@@ -13,80 +13,61 @@ use std::f64::consts::TAU;
 
 /// Advances a block by `steps` solver steps. Environments that break stand still.
 #[inline(always)]
-pub fn advance<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    steps: u32,
-) {
+pub fn advance<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     mark_running(block);
     match model.dimensions() {
-        2 => advance_in::<W, 2, I>(isa, model, block, steps),
-        _ => advance_in::<W, 3, I>(isa, model, block, steps),
+        2 => advance_in::<2, I>(isa, model, block, steps),
+        _ => advance_in::<3, I>(isa, model, block, steps),
     }
 }
 
-fn mark_running<const W: usize, N: Number>(block: &mut Block<W, N>) {
-    for lane in 0..W {
+fn mark_running<R: Row>(block: &mut Block<R>) {
+    for lane in 0..R::LANES {
         block.running[0][lane] =
-            N::of(if block.status[lane] == Status::Running { 1.0 } else { 0.0 });
+            R::Number::of(if block.status[lane] == Status::Running { 1.0 } else { 0.0 });
     }
 }
 
 #[inline(always)]
-fn advance_in<const W: usize, const D: usize, I: Isa<W>>(
+fn advance_in<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     steps: u32,
 ) {
     for _ in 0..steps {
-        step::<W, D, I>(isa, model, block);
+        step::<D, I>(isa, model, block);
     }
 }
 
 /// One solver step in D dimensions.
-fn step<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn step<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for &phase in &model.phases {
-        run::<W, D, I>(isa, model, block, phase);
+        run::<D, I>(isa, model, block, phase);
     }
     block.counters.steps += 1;
 }
 
 /// One phase of a step. The phases of a model one after another, each once, are a step.
-pub fn run_phase<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    phase: Phase,
-) {
+pub fn run_phase<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     mark_running(block);
     match model.dimensions() {
-        2 => run::<W, 2, I>(isa, model, block, phase),
-        _ => run::<W, 3, I>(isa, model, block, phase),
+        2 => run::<2, I>(isa, model, block, phase),
+        _ => run::<3, I>(isa, model, block, phase),
     }
 }
 
 /// One phase in D dimensions, compiled for the instruction set on its own: as one function all phases would take a
 /// compiler minutes. Contact compiles its parts one by one.
-fn run<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    phase: Phase,
-) {
+fn run<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     match phase {
         Phase::Kinematics => isa.vectorize(
             #[inline(always)]
-            || elastic::kinematics::<W, D, I>(isa, model, block),
+            || elastic::kinematics::<D, I>(isa, model, block),
         ),
         Phase::Inertia => isa.vectorize(
             #[inline(always)]
-            || integrate::inertia::<W, D, I>(isa, model, block),
+            || integrate::inertia::<D, I>(isa, model, block),
         ),
         Phase::Gravity => isa.vectorize(
             #[inline(always)]
@@ -94,32 +75,32 @@ fn run<const W: usize, const D: usize, I: Isa<W>>(
         ),
         Phase::Magnets => isa.vectorize(
             #[inline(always)]
-            || integrate::magnets::<W, D, I>(isa, model, block),
+            || integrate::magnets::<D, I>(isa, model, block),
         ),
         Phase::Springs => isa.vectorize(
             #[inline(always)]
-            || integrate::springs::<W, D, I>(isa, model, block),
+            || integrate::springs::<D, I>(isa, model, block),
         ),
         Phase::System => solve(isa, model, block),
-        Phase::ContactPoints => contact::detect::<W, D, I>(isa, model, block),
+        Phase::ContactPoints => contact::detect::<D, I>(isa, model, block),
         Phase::Condensation => model.system.condense(isa, &mut block.matrix, &mut block.right),
-        Phase::Contact => contact::solve::<W, D, I>(isa, model, block),
+        Phase::Contact => contact::solve::<D, I>(isa, model, block),
         Phase::Recovery => {
             model.system.recover(isa, &block.matrix, &block.right, &mut block.next);
         }
         Phase::Commit => isa.vectorize(
             #[inline(always)]
-            || commit::<W, D, I>(isa, model, block),
+            || commit::<D, I>(isa, model, block),
         ),
         Phase::Drive => isa.vectorize(
             #[inline(always)]
-            || move_drive::<W, D, I>(isa, model, block),
+            || move_drive::<D, I>(isa, model, block),
         ),
     }
 }
 
 /// Velocities at the end of a step without ground.
-fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+fn solve<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     model.system.kept().factor(isa, &mut block.matrix);
     block.next.copy_from_slice(&block.right);
     model.system.kept().solve(isa, &block.matrix, &mut block.next);
@@ -129,15 +110,11 @@ fn solve<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, 
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
 /// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
-fn commit<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let finite = all_finite(isa, block);
     let intact = intact(isa, model, block);
-    let above = above_ground::<W, D, I>(isa, model, block);
+    let above = above_ground::<D, I>(isa, model, block);
     let sound = finite & intact & above;
     if (running & !sound).any() {
         mark_broken(isa, block, running, [finite, intact, above]);
@@ -161,7 +138,7 @@ fn commit<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn all_finite<const W: usize, I: Isa<W>>(isa: I, block: &Block<W, I::Number>) -> I::M {
+fn all_finite<I: Isa>(isa: I, block: &Block<I::Row>) -> I::M {
     let mut sum = isa.splat(0.0);
     for row in block.next.iter() {
         sum = sum + isa.load(row).abs();
@@ -171,7 +148,7 @@ fn all_finite<const W: usize, I: Isa<W>>(isa: I, block: &Block<W, I::Number>) ->
 }
 
 #[inline(always)]
-fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W, I::Number>) -> I::M {
+fn intact<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
     let mut intact = isa.splat(0.0).eq(isa.splat(0.0));
     for spring in &model.stretch {
         let length = isa.load(&block.length[spring.element]);
@@ -183,11 +160,7 @@ fn intact<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &Block<W, I::
 }
 
 #[inline(always)]
-fn above_ground<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &Block<W, I::Number>,
-) -> I::M {
+fn above_ground<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
     let mut lowest = isa.splat(0.0);
     if model.program.ground.is_some() {
         for node in 0..model.nodes() {
@@ -198,9 +171,9 @@ fn above_ground<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn mark_broken<const W: usize, I: Isa<W>>(
+fn mark_broken<I: Isa>(
     isa: I,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     running: I::M,
     [finite, intact, above]: [I::M; 3],
 ) {
@@ -208,16 +181,16 @@ fn mark_broken<const W: usize, I: Isa<W>>(
     let reason = I::F::select(above, code(Status::Running), code(Status::Sunk));
     let reason = I::F::select(intact, reason, code(Status::Overstretched));
     let reason = I::F::select(finite, reason, code(Status::NotFinite));
-    let mut row = [I::Number::default(); W];
+    let mut row = I::Row::zeros();
     isa.store(I::F::select(running, reason, code(Status::Running)), &mut row);
-    for lane in 0..W {
+    for lane in 0..I::Row::LANES {
         let code = row[lane].f64();
         if code != 0.0 {
             block.status[lane] = Status::from_code(code as u8).unwrap_or(Status::NotFinite);
-            block.running[0][lane] = I::Number::default();
+            block.running[0][lane] = Number::of(0.0);
             // The impulses of the step that failed may be anything, NaN included.
             for rows in [&mut block.mode, &mut block.normal, &mut block.pad] {
-                rows.iter_mut().for_each(|row| row[lane] = I::Number::default());
+                rows.iter_mut().for_each(|row| row[lane] = Number::of(0.0));
             }
         }
     }
@@ -225,11 +198,7 @@ fn mark_broken<const W: usize, I: Isa<W>>(
 
 /// Puts the drive where it is at the end of the step.
 #[inline(always)]
-fn move_drive<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn move_drive<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(drive) = &model.program.drive else { return };
     let axes = stage_axes(D);
     let time = isa.load(&block.step_count[0]) * model.step_s;
@@ -276,7 +245,7 @@ fn move_drive<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Waypoints lane by lane: environments may have been reset at different times.
 #[inline(always)]
-fn follow<const W: usize, I: Isa<W>>(
+fn follow<I: Isa>(
     isa: I,
     time_s: &[f64],
     point: &[[f64; 4]],
@@ -284,14 +253,14 @@ fn follow<const W: usize, I: Isa<W>>(
     place: &mut [I::F; 4],
     speed: &mut [I::F; 4],
 ) {
-    let mut now = [I::Number::default(); W];
+    let mut now = I::Row::zeros();
     isa.store(time, &mut now);
-    let mut rows = [[I::Number::default(); W]; 8];
-    for lane in 0..W {
+    let mut rows = [I::Row::zeros(); 8];
+    for lane in 0..I::Row::LANES {
         let (position, velocity) = on_waypoints(time_s, point, now[lane].f64());
         for axis in 0..4 {
-            rows[axis][lane] = I::Number::of(position[axis]);
-            rows[4 + axis][lane] = I::Number::of(velocity[axis]);
+            rows[axis][lane] = Number::of(position[axis]);
+            rows[4 + axis][lane] = Number::of(velocity[axis]);
         }
     }
     for axis in 0..4 {
@@ -302,11 +271,7 @@ fn follow<const W: usize, I: Isa<W>>(
 
 /// x of the robot's centre: mean of its magnets.
 #[inline(always)]
-pub fn robot_centre<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &Block<W, I::Number>,
-) -> I::F {
+pub fn robot_centre<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::F {
     let mut sum = isa.splat(0.0);
     for &dof in &model.coordinates.bodies {
         sum = sum + isa.load(&block.q[dof]);
@@ -317,10 +282,10 @@ pub fn robot_centre<const W: usize, I: Isa<W>>(
 /// Sets the targets of a controlled drive from actions in [−1, 1]. In the plane: place relative to the
 /// robot's centre now, height, travel speed. In space: place along the robot's heading and to its side, height,
 /// travel speed, yaw against its heading where the stage has it. Values beyond are clipped.
-pub fn command<const W: usize, N: Number>(
+pub fn command<R: Row>(
     model: &Model,
     drive: &DriveModel,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     lane: usize,
     action: &[f64],
 ) {
@@ -346,9 +311,9 @@ pub fn command<const W: usize, N: Number>(
         [place[0], place[1], place[2], yaw + turns * TAU, speed]
     };
     for (row, target) in block.target.iter_mut().zip(targets) {
-        row[lane] = N::of(target);
+        row[lane] = R::Number::of(target);
     }
     for k in 0..size {
-        block.action[k][lane] = N::of(action(k));
+        block.action[k][lane] = R::Number::of(action(k));
     }
 }

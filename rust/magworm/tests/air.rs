@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use magworm::lanes::{Scalar, WIDE};
+use magworm::lanes::{Row, Scalar, WIDE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::state::{Block, Status, Steps};
@@ -11,7 +11,12 @@ use magworm::step::advance;
 const SCENES: [&str; 4] = ["three magnets", "three magnets in space", "multipliers", "incline"];
 
 /// Puts a robot at rest so high into a lane, turned a little, so that it lands on an edge.
-fn drop_from<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize, height_m: f64) {
+fn drop_from<R: Row<Number = f64>>(
+    model: &Model,
+    block: &mut Block<R>,
+    lane: usize,
+    height_m: f64,
+) {
     let mut pose = scene_start(model);
     pose.height_m = height_m;
     pose.angle_rad = 0.05;
@@ -20,7 +25,7 @@ fn drop_from<const W: usize>(model: &Model, block: &mut Block<W>, lane: usize, h
     reset(model, block, lane, pose, &factors, &present, Draws::new(1, 0));
 }
 
-fn bits<const W: usize>(block: &Block<W>, lane: usize) -> Vec<u64> {
+fn bits<R: Row<Number = f64>>(block: &Block<R>, lane: usize) -> Vec<u64> {
     let rows = block.state_rows();
     rows.iter().flat_map(|rows| rows.iter().map(|row| row[lane].to_bits())).collect()
 }
@@ -35,9 +40,9 @@ fn a_falling_robot_has_equal_bits_alone_and_beside_robots_that_lie() {
     for name in SCENES {
         let model = scenes::model(name);
         let steps = (0.2 / model.step_s) as u32;
-        let mut together = Block::<WIDE>::new(&model);
+        let mut together = Block::<[f64; WIDE]>::new(&model);
         (0..WIDE).for_each(|lane| drop_from(&model, &mut together, lane, height_m(lane)));
-        let mut alone: Vec<Block<1>> = (0..WIDE).map(|_| Block::new(&model)).collect();
+        let mut alone: Vec<Block<[f64; 1]>> = (0..WIDE).map(|_| Block::new(&model)).collect();
         (0..WIDE).for_each(|lane| drop_from(&model, &mut alone[lane], 0, height_m(lane)));
         let set = magworm::lanes::InstructionSet::widest();
         let mut flew_beside_one_that_lay = 0;
@@ -66,7 +71,7 @@ fn a_falling_robot_has_equal_bits_alone_and_beside_robots_that_lie() {
 fn a_block_in_the_air_solves_one_system_a_step() {
     for name in SCENES {
         let model = scenes::model(name);
-        let mut block = Block::<WIDE>::new(&model);
+        let mut block = Block::<[f64; WIDE]>::new(&model);
         (0..WIDE).for_each(|lane| drop_from(&model, &mut block, lane, 1.0));
         block.advance_on(magworm::lanes::InstructionSet::widest(), &model, 50);
         let work = block.counters;

@@ -28,7 +28,7 @@ fn scene(preset: &str, edits: &[&Edits<'_>]) -> Scene {
 
 struct World {
     model: Model,
-    block: Block<1>,
+    block: Block<[f64; 1]>,
 }
 
 impl World {
@@ -50,8 +50,8 @@ impl World {
     fn refresh(&mut self) {
         self.block.running[0][0] = 1.0;
         match self.model.dimensions() {
-            2 => kinematics::<1, 2, _>(Scalar, &self.model, &mut self.block),
-            _ => kinematics::<1, 3, _>(Scalar, &self.model, &mut self.block),
+            2 => kinematics::<2, _>(Scalar, &self.model, &mut self.block),
+            _ => kinematics::<3, _>(Scalar, &self.model, &mut self.block),
         }
     }
 

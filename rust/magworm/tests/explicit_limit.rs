@@ -57,7 +57,7 @@ fn growth(scene: &Scene, step_s: f64) -> f64 {
     let mut soft = with_step(scene, step_s);
     soft.material.youngs_modulus_pa /= SOFTER;
     let model = Model::compile(&soft).expect("soft rods may take this step");
-    let mut block = Block::<1>::new(&model);
+    let mut block = Block::<[f64; 1]>::new(&model);
     let mut factors = [1.0; Model::PARAMETERS.len()];
     factors[Parameter::Stiffness as usize] = SOFTER;
     let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
@@ -67,7 +67,8 @@ fn growth(scene: &Scene, step_s: f64) -> f64 {
     block.v.iter_mut().for_each(|row| row[0] = draws.uniform(-SPEED_M_S, SPEED_M_S));
     // The first step ties the ends of the magnets to them.
     advance(Scalar, &model, &mut block, 1);
-    let fastest = |block: &Block<1>| block.v.iter().map(|row| row[0].abs()).fold(0.0, f64::max);
+    let fastest =
+        |block: &Block<[f64; 1]>| block.v.iter().map(|row| row[0].abs()).fold(0.0, f64::max);
     let before = fastest(&block);
     advance(Scalar, &model, &mut block, STEPS);
     if block.status[0] != Status::Running {

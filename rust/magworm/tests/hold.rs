@@ -36,7 +36,7 @@ const EXPLICIT: &[(&str, &str)] = &[
     ("material.damping_time_s", "1e-4"),
 ];
 
-fn start(model: &Model, block: &mut Block<WIDE>, lane: usize) {
+fn start(model: &Model, block: &mut Block<[f64; WIDE]>, lane: usize) {
     let present = vec![true; model.magnets()];
     let mut pose = scene_start(model);
     pose.angle_rad += 0.01 * lane as f64;
@@ -44,7 +44,7 @@ fn start(model: &Model, block: &mut Block<WIDE>, lane: usize) {
     reset(model, block, lane, pose, &factors, &present, Draws::new(lane as u64, 0));
 }
 
-fn act(model: &Model, block: &mut Block<WIDE>, step: u32) {
+fn act(model: &Model, block: &mut Block<[f64; WIDE]>, step: u32) {
     let Some(drive) = &model.program.drive else { return };
     if !step.is_multiple_of(model.steps_per_control) {
         return;
@@ -56,7 +56,7 @@ fn act(model: &Model, block: &mut Block<WIDE>, step: u32) {
     }
 }
 
-fn bits(block: &Block<WIDE>, lane: usize) -> Vec<u64> {
+fn bits(block: &Block<[f64; WIDE]>, lane: usize) -> Vec<u64> {
     let rows = block.state_rows();
     // A model that holds nothing has no rows for it.
     let rows = rows.iter().take(rows.len() - 1);
@@ -71,7 +71,7 @@ struct Hand {
 }
 
 impl Hand {
-    fn step(&mut self, model: &Model, block: &mut Block<WIDE>) {
+    fn step(&mut self, model: &Model, block: &mut Block<[f64; WIDE]>) {
         for &phase in &model.phases {
             if phase == Phase::Magnets {
                 self.magnets(model, block);
@@ -81,7 +81,7 @@ impl Hand {
         }
     }
 
-    fn magnets(&mut self, model: &Model, block: &mut Block<WIDE>) {
+    fn magnets(&mut self, model: &Model, block: &mut Block<[f64; WIDE]>) {
         let before = block.right.to_vec();
         block.right.fill([0.0; WIDE]);
         block.run_phase_on(InstructionSet::widest(), model, Phase::Magnets);
@@ -137,12 +137,12 @@ fn a_held_wrench_is_the_one_computed_last() {
 
 #[test]
 fn a_wrench_that_acts_for_one_step_has_no_rows_and_needs_none() {
-    let block = Block::<WIDE>::new(&model("paper-3", &[]));
+    let block = Block::<[f64; WIDE]>::new(&model("paper-3", &[]));
     assert!(block.wrench.is_empty());
-    let rows = |edits| Block::<WIDE>::new(&holding("paper-3", edits, 2)).wrench.len();
+    let rows = |edits| Block::<[f64; WIDE]>::new(&holding("paper-3", edits, 2)).wrench.len();
     assert_eq!((rows(&[]), rows(IN_SPACE)), (3 * 3, 3 * 6));
     // A field without a drive has no wrench to hold.
-    assert!(Block::<WIDE>::new(&holding("cantilever", &[], 2)).wrench.is_empty());
+    assert!(Block::<[f64; WIDE]>::new(&holding("cantilever", &[], 2)).wrench.is_empty());
 }
 
 #[test]
@@ -151,7 +151,8 @@ fn a_fresh_start_forgets_the_wrench() {
     let mut block = Block::new(&model);
     (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
     block.advance_on(InstructionSet::widest(), &model, 3);
-    let held = |block: &Block<WIDE>, lane: usize| block.wrench.iter().any(|row| row[lane] != 0.0);
+    let held =
+        |block: &Block<[f64; WIDE]>, lane: usize| block.wrench.iter().any(|row| row[lane] != 0.0);
     assert!((0..WIDE).all(|lane| held(&block, lane)));
     start(&model, &mut block, 4);
     assert!((0..WIDE).all(|lane| held(&block, lane) == (lane != 4)));
@@ -210,7 +211,7 @@ fn a_robot_that_stands_still_is_never_due() {
     let model = holding("paper-3", &[], 5);
     let mut block = Block::new(&model);
     (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
-    block.status = [Status::Sunk; WIDE];
+    block.status.fill(Status::Sunk);
     block.advance_on(InstructionSet::widest(), &model, 20);
     assert_eq!(block.counters.wrenches, 0);
 }

@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use magworm::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
+use magworm::lanes::{InstructionSet, Number, Row, WIDE, WIDE_SINGLE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::scene::Precision;
@@ -12,9 +12,9 @@ use magworm::step::command;
 const CONTROL_STEPS: u64 = 60;
 
 /// Starts the robots `first..` in the lanes of a block, each with parameters of its own.
-fn start<const W: usize, N: Number>(model: &Model, first: usize) -> Block<W, N> {
+fn start<R: Row>(model: &Model, first: usize) -> Block<R> {
     let mut block = Block::new(model);
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         let robot = (first + lane) as u64;
         let mut draws = Draws::new(robot, 7);
         let factors = Model::PARAMETERS.map(|_| draws.uniform(0.4, 2.5));
@@ -30,14 +30,9 @@ fn start<const W: usize, N: Number>(model: &Model, first: usize) -> Block<W, N> 
 }
 
 /// New targets for the robots `first..`, where the scene takes any.
-fn act<const W: usize, N: Number>(
-    model: &Model,
-    block: &mut Block<W, N>,
-    first: usize,
-    control_step: u64,
-) {
+fn act<R: Row>(model: &Model, block: &mut Block<R>, first: usize, control_step: u64) {
     let Some(drive) = &model.program.drive else { return };
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
         command(model, drive, block, lane, &action);
@@ -45,43 +40,39 @@ fn act<const W: usize, N: Number>(
 }
 
 /// The bits of one lane's state.
-fn bits<const W: usize, N: Number>(block: &Block<W, N>, lane: usize) -> Vec<u64> {
+fn bits<R: Row>(block: &Block<R>, lane: usize) -> Vec<u64> {
     let rows = block.state_rows();
     let state = rows.iter().flat_map(|rows| rows.iter().map(|row| row[lane].f64().to_bits()));
     state.chain([u64::from(block.status[lane] as u8)]).collect()
 }
 
 /// State of the robots `first..` of a block after every control step, `[control step][lane]`.
-fn on<const W: usize, N: Number>(
-    set: InstructionSet,
-    model: &Model,
-    first: usize,
-) -> Vec<Vec<Vec<u64>>>
+fn on<R: Row>(set: InstructionSet, model: &Model, first: usize) -> Vec<Vec<Vec<u64>>>
 where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
-    let mut block = start::<W, N>(model, first);
+    let mut block = start::<R>(model, first);
     let steps = (0..CONTROL_STEPS).map(|control_step| {
         act(model, &mut block, first, control_step);
         block.advance_on(set, model, model.steps_per_control);
-        (0..W).map(|lane| bits(&block, lane)).collect()
+        (0..R::LANES).map(|lane| bits(&block, lane)).collect()
     });
     steps.collect()
 }
 
-/// Blocks of W lanes on every instruction set, and their robots one by one.
-fn agree<const W: usize, N: Number>(name: &str, model: &Model)
+/// Blocks on every instruction set, and their robots one by one.
+fn agree<R: Row>(name: &str, model: &Model)
 where
-    Block<W, N>: Steps,
-    Block<1, N>: Steps,
+    Block<R>: Steps,
+    Block<[R::Number; 1]>: Steps,
 {
     let sets = InstructionSet::available();
-    let widest = on::<W, N>(sets[0], model, 0);
+    let widest = on::<R>(sets[0], model, 0);
     for set in &sets[1..] {
-        assert!(on::<W, N>(*set, model, 0) == widest, "{name}: {} differs", set.name());
+        assert!(on::<R>(*set, model, 0) == widest, "{name}: {} differs", set.name());
     }
-    for robot in 0..W {
-        let alone = on::<1, N>(sets[0], model, robot);
+    for robot in 0..R::LANES {
+        let alone = on::<[R::Number; 1]>(sets[0], model, robot);
         let lanes = widest.iter().map(|step| &step[robot]);
         assert!(alone.iter().map(|step| &step[0]).eq(lanes), "{name}: robot {robot} alone differs");
     }
@@ -94,8 +85,8 @@ fn every_instruction_set_gives_equal_bits() {
     for (name, ..) in scenes::SCENES {
         let model = scenes::model(name);
         match model.scene.solver.precision {
-            Precision::Double => agree::<WIDE, f64>(name, &model),
-            Precision::Single => agree::<WIDE_SINGLE, f32>(name, &model),
+            Precision::Double => agree::<[f64; WIDE]>(name, &model),
+            Precision::Single => agree::<[f32; WIDE_SINGLE]>(name, &model),
         }
     }
 }

@@ -15,7 +15,7 @@ mod robots;
 mod wrench;
 
 use cases::{CASES, Case, Work};
-use magworm::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
+use magworm::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use magworm::model::{Model, Phase};
 use magworm::observe;
 use magworm::scene::Precision;
@@ -67,8 +67,8 @@ fn run(name: &str, phase: Option<&str>) -> Result<u64, String> {
     let model = Arc::new(case.model()?);
     match case.work {
         Work::Block => match model.scene.solver.precision {
-            Precision::Double => block::<WIDE, f64>(&model, avx2()?, phase),
-            Precision::Single => block::<WIDE_SINGLE, f32>(&model, avx2()?, phase),
+            Precision::Double => block::<[f64; WIDE]>(&model, avx2()?, phase),
+            Precision::Single => block::<[f32; WIDE_SINGLE]>(&model, avx2()?, phase),
         },
         Work::Wrench => wrench::count(&model, avx2()?),
         Work::Scalar => Ok(scalar(&model)),
@@ -91,14 +91,10 @@ fn avx2() -> Result<InstructionSet, String> {
     found.ok_or_else(|| format!("instruction set is {}; allowed: AVX2", sets[0].name()))
 }
 
-/// Solver steps of a block of W robots, each with actions of its own. `phase`: all if none.
-fn block<const W: usize, N: Number>(
-    model: &Model,
-    set: InstructionSet,
-    phase: Option<&str>,
-) -> Result<u64, String>
+/// Solver steps of a block of robots, each with actions of its own. `phase`: all if none.
+fn block<R: Row>(model: &Model, set: InstructionSet, phase: Option<&str>) -> Result<u64, String>
 where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let chosen = match phase {
         None => None,
@@ -107,9 +103,9 @@ where
             Some(*found.ok_or_else(|| format!("phase is {name:?}; allowed: those of the task"))?)
         }
     };
-    let mut block = start::<W, N>(model, 0, W);
+    let mut block = start::<R>(model, 0, R::LANES);
     for control_step in 0..BEFORE + CONTROL_STEPS {
-        act(model, &mut block, 0, W, control_step);
+        act(model, &mut block, 0, R::LANES, control_step);
         let steps = model.steps_per_control;
         if control_step < BEFORE {
             block.advance_on(set, model, steps);

@@ -1,6 +1,6 @@
 //! Robots of a scene that act at random.
 
-use magworm::lanes::Number;
+use magworm::lanes::Row;
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::state::Block;
@@ -18,15 +18,11 @@ pub fn action(robot: usize, control_step: u64) -> [f64; 5] {
 }
 
 /// Robots at the start pose of their scene, from robot `first` on; so many are different, and more lanes repeat them.
-pub fn start<const W: usize, N: Number>(
-    model: &Model,
-    first: usize,
-    different: usize,
-) -> Block<W, N> {
+pub fn start<R: Row>(model: &Model, first: usize, different: usize) -> Block<R> {
     let mut block = Block::new(model);
     let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
     let factors = [1.0; Model::PARAMETERS.len()];
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         let draws = Draws::new(((first + lane) % different) as u64, 0);
         reset(model, &mut block, lane, scene_start(model), &factors, &present, draws);
     }
@@ -34,15 +30,15 @@ pub fn start<const W: usize, N: Number>(
 }
 
 /// Gives each of these robots its action of a control step.
-pub fn act<const W: usize, N: Number>(
+pub fn act<R: Row>(
     model: &Model,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     first: usize,
     different: usize,
     control_step: u64,
 ) {
     let Some(drive) = &model.program.drive else { return };
-    for lane in 0..W {
+    for lane in 0..R::LANES {
         command(model, drive, block, lane, &action((first + lane) % different, control_step));
     }
 }

@@ -19,7 +19,7 @@ struct Sweep<'a>(&'a PairModel, &'a [Row], &'a mut [[f64; WIDE]; 6]);
 
 impl WideTask for Sweep<'_> {
     type Output = ();
-    fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) {
+    fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) {
         let Sweep(pair, rows, total) = self;
         isa.vectorize(
             #[inline(always)]

@@ -65,14 +65,14 @@ struct Run<'a> {
     chains: usize,
     /// c, d, a, b.
     constants: [f64; 4],
-    rows: &'a mut Rows<WIDE>,
+    rows: &'a mut Rows<[f64; WIDE]>,
     /// Where a number is stored and loaded again: equal, which the compiler does not know.
     place: [usize; 2],
 }
 
 impl WideTask for Run<'_> {
     type Output = [f64; WIDE];
-    fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) -> [f64; WIDE] {
+    fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) -> [f64; WIDE] {
         isa.vectorize(
             #[inline(always)]
             || match self.chains {
@@ -89,7 +89,7 @@ impl WideTask for Run<'_> {
 }
 
 #[inline(always)]
-fn rounds<I: Isa<WIDE, Number = f64>, const N: usize>(isa: I, run: Run<'_>) -> [f64; WIDE] {
+fn rounds<I: Isa<Row = [f64; WIDE]>, const N: usize>(isa: I, run: Run<'_>) -> [f64; WIDE] {
     let [c, d, a, b] = run.constants;
     let (c, d, a, b) = (isa.splat(c), isa.splat(d), isa.splat(a), isa.splat(b));
     let mut x = [c; N];
@@ -154,7 +154,7 @@ const DEPTH: usize = 16;
 
 impl WideTask for Fused<'_> {
     type Output = ();
-    fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) {
+    fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) {
         let Fused(numbers, [c, d]) = self;
         isa.vectorize(
             #[inline(always)]

@@ -4,9 +4,10 @@
 //! Chains go through memory: what is stored at a place and loaded from there goes on. Not followed are rows that are
 //! copied without being loaded, a handful a step, and what a branch waits for, since branches are predicted.
 
-use magworm::lanes::{Isa, Mask, Real};
+use magworm::lanes::{Isa, Mask, Real, Row};
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
+use std::marker::PhantomData;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// Kinds of operations: their names, in the order of all arrays by kind.
@@ -78,43 +79,50 @@ fn done(kind: usize, waits: Path) -> Path {
     })
 }
 
-/// The instruction set.
+/// The instruction set for rows of R.
 #[derive(Clone, Copy)]
-pub struct Counting;
+pub struct Counting<R>(pub PhantomData<R>);
 
 /// Numbers in lanes.
 #[derive(Clone, Copy)]
-pub struct Numbers<const W: usize> {
-    lanes: [f64; W],
+pub struct Numbers<R: Row<Number = f64>> {
+    lanes: R,
     path: Path,
 }
 
-/// Truth values in lanes.
+/// Truth values in lanes: 1 where true, else 0.
 #[derive(Clone, Copy)]
-pub struct Truths<const W: usize> {
-    lanes: [bool; W],
+pub struct Truths<R: Row<Number = f64>> {
+    lanes: R,
     path: Path,
 }
 
-fn numbers<const W: usize>(
+impl<R: Row<Number = f64>> Truths<R> {
+    fn of(self, lane: usize) -> bool {
+        self.lanes[lane] == 1.0
+    }
+}
+
+fn numbers<R: Row<Number = f64>>(
     kind: usize,
     waits: Path,
     of_lane: impl FnMut(usize) -> f64,
-) -> Numbers<W> {
-    Numbers { lanes: std::array::from_fn(of_lane), path: done(kind, waits) }
+) -> Numbers<R> {
+    Numbers { lanes: R::of_lanes(of_lane), path: done(kind, waits) }
 }
 
-fn truths<const W: usize>(
+fn truths<R: Row<Number = f64>>(
     kind: usize,
     waits: Path,
-    of_lane: impl FnMut(usize) -> bool,
-) -> Truths<W> {
-    Truths { lanes: std::array::from_fn(of_lane), path: done(kind, waits) }
+    mut of_lane: impl FnMut(usize) -> bool,
+) -> Truths<R> {
+    let lanes = R::of_lanes(|k| f64::from(u8::from(of_lane(k))));
+    Truths { lanes, path: done(kind, waits) }
 }
 
 macro_rules! arithmetic {
     ($($name:ident, $method:ident, $kind:ident, $sign:tt;)*) => {$(
-        impl<const W: usize> $name for Numbers<W> {
+        impl<R: Row<Number = f64>> $name for Numbers<R> {
             type Output = Self;
             #[inline(never)]
             fn $method(self, other: Self) -> Self {
@@ -122,7 +130,7 @@ macro_rules! arithmetic {
                 numbers($kind, waits, |k| self.lanes[k] $sign other.lanes[k])
             }
         }
-        impl<const W: usize> $name<f64> for Numbers<W> {
+        impl<R: Row<Number = f64>> $name<f64> for Numbers<R> {
             type Output = Self;
             #[inline(never)]
             fn $method(self, other: f64) -> Self {
@@ -139,7 +147,7 @@ arithmetic! {
     Div, div, DIVIDE, /;
 }
 
-impl<const W: usize> Neg for Numbers<W> {
+impl<R: Row<Number = f64>> Neg for Numbers<R> {
     type Output = Self;
     #[inline(never)]
     fn neg(self) -> Self {
@@ -147,44 +155,44 @@ impl<const W: usize> Neg for Numbers<W> {
     }
 }
 
-impl<const W: usize> BitAnd for Truths<W> {
+impl<R: Row<Number = f64>> BitAnd for Truths<R> {
     type Output = Self;
     fn bitand(self, other: Self) -> Self {
-        truths(MASK, self.path.longer(other.path), |k| self.lanes[k] & other.lanes[k])
+        truths(MASK, self.path.longer(other.path), |k| self.of(k) & other.of(k))
     }
 }
 
-impl<const W: usize> BitOr for Truths<W> {
+impl<R: Row<Number = f64>> BitOr for Truths<R> {
     type Output = Self;
     fn bitor(self, other: Self) -> Self {
-        truths(MASK, self.path.longer(other.path), |k| self.lanes[k] | other.lanes[k])
+        truths(MASK, self.path.longer(other.path), |k| self.of(k) | other.of(k))
     }
 }
 
-impl<const W: usize> Not for Truths<W> {
+impl<R: Row<Number = f64>> Not for Truths<R> {
     type Output = Self;
     fn not(self) -> Self {
-        truths(MASK, self.path, |k| !self.lanes[k])
+        truths(MASK, self.path, |k| !self.of(k))
     }
 }
 
-impl<const W: usize> Mask for Truths<W> {
+impl<R: Row<Number = f64>> Mask for Truths<R> {
     fn any(self) -> bool {
         done(MASK, self.path);
-        self.lanes.contains(&true)
+        (0..R::LANES).any(|k| self.of(k))
     }
     fn all(self) -> bool {
         done(MASK, self.path);
-        !self.lanes.contains(&false)
+        (0..R::LANES).all(|k| self.of(k))
     }
 }
 
-impl<const W: usize> Real for Numbers<W> {
-    type Mask = Truths<W>;
+impl<R: Row<Number = f64>> Real for Numbers<R> {
+    type Mask = Truths<R>;
     type Number = f64;
 
     fn splat(self, value: f64) -> Self {
-        Numbers { lanes: [value; W], path: Path::default() }
+        Numbers { lanes: R::of_lanes(|_| value), path: Path::default() }
     }
     #[inline(never)]
     fn sqrt(self) -> Self {
@@ -200,44 +208,44 @@ impl<const W: usize> Real for Numbers<W> {
         numbers(BITS, waits, |k| self.lanes[k].copysign(sign.lanes[k]))
     }
     #[inline(never)]
-    fn lt(self, other: Self) -> Truths<W> {
+    fn lt(self, other: Self) -> Truths<R> {
         truths(COMPARE, self.path.longer(other.path), |k| self.lanes[k] < other.lanes[k])
     }
     #[inline(never)]
-    fn le(self, other: Self) -> Truths<W> {
+    fn le(self, other: Self) -> Truths<R> {
         truths(COMPARE, self.path.longer(other.path), |k| self.lanes[k] <= other.lanes[k])
     }
     #[inline(never)]
-    fn eq(self, other: Self) -> Truths<W> {
+    fn eq(self, other: Self) -> Truths<R> {
         truths(COMPARE, self.path.longer(other.path), |k| self.lanes[k] == other.lanes[k])
     }
     #[inline(never)]
-    fn select(mask: Truths<W>, a: Self, b: Self) -> Self {
+    fn select(mask: Truths<R>, a: Self, b: Self) -> Self {
         let waits = mask.path.longer(a.path).longer(b.path);
-        numbers(SELECT, waits, |k| if mask.lanes[k] { a.lanes[k] } else { b.lanes[k] })
+        numbers(SELECT, waits, |k| if mask.of(k) { a.lanes[k] } else { b.lanes[k] })
     }
     /// Two operations on bits for the mantissa; two and a subtraction for the exponent.
     #[inline(never)]
     fn mantissa_exponent(self) -> (Self, Self) {
-        let parts = self.lanes.map(Real::mantissa_exponent);
+        let parts = |k| Real::mantissa_exponent(self.lanes[k]);
         let twice = done(BITS, done(BITS, self.path));
         let shifted = done(BITS, done(BITS, self.path));
-        let mantissa = Numbers { lanes: parts.map(|part| part.0), path: twice };
-        (mantissa, numbers(ADD, shifted, |k| parts[k].1))
+        let mantissa = Numbers { lanes: R::of_lanes(|k| parts(k).0), path: twice };
+        (mantissa, numbers(ADD, shifted, |k| parts(k).1))
     }
 }
 
-impl<const W: usize> Isa<W> for Counting {
-    type Number = f64;
-    type F = Numbers<W>;
-    type M = Truths<W>;
+impl<R: Row<Number = f64>> Isa for Counting<R> {
+    type Row = R;
+    type F = Numbers<R>;
+    type M = Truths<R>;
 
-    fn splat(self, value: f64) -> Numbers<W> {
-        Numbers { lanes: [value; W], path: Path::default() }
+    fn splat(self, value: f64) -> Numbers<R> {
+        Numbers { lanes: R::of_lanes(|_| value), path: Path::default() }
     }
     #[inline(never)]
-    fn load(self, row: &[f64; W]) -> Numbers<W> {
-        let place = row.as_ptr() as usize;
+    fn load(self, row: &R) -> Numbers<R> {
+        let place = std::ptr::from_ref(row) as usize;
         let stored = TALLY.with_borrow_mut(|tally| {
             tally.rows.insert(place);
             tally.memory.get(&place).copied()
@@ -245,16 +253,16 @@ impl<const W: usize> Isa<W> for Counting {
         numbers(LOAD, stored.unwrap_or_default(), |k| row[k])
     }
     #[inline(never)]
-    fn store(self, value: Numbers<W>, row: &mut [f64; W]) {
+    fn store(self, value: Numbers<R>, row: &mut R) {
         *row = value.lanes;
         let path = done(STORE, value.path);
-        let place = row.as_ptr() as usize;
+        let place = std::ptr::from_ref(row) as usize;
         TALLY.with_borrow_mut(|tally| {
             tally.rows.insert(place);
             tally.memory.insert(place, path)
         });
     }
-    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+    fn vectorize<T>(self, f: impl FnOnce() -> T) -> T {
         f()
     }
 }

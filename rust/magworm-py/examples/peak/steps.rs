@@ -3,21 +3,22 @@
 use crate::counting::{Counting, KINDS, Tally, tallied};
 use crate::robots::{BEFORE, CONTROL_STEPS, act, start};
 use crate::twin::{TWIN, Twin};
-use magworm::lanes::{InstructionSet, Isa, Scalar, WIDE, WideTask, run_wide_on};
+use magworm::lanes::{InstructionSet, Isa, Row, Scalar, WIDE, WideTask, run_wide_on};
 use magworm::model::Model;
 use magworm::state::{Block, Counters, Steps};
 use magworm::step::{advance, run_phase};
+use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
 /// Name of all phases together.
 const STEP: &str = "step";
 
 /// A block of robots that has begun to crawl.
-fn crawling<const W: usize>(
+fn crawling<R: Row<Number = f64>>(
     model: &Model,
     first: usize,
-    mut steps: impl FnMut(&mut Block<W>),
-) -> Block<W> {
+    mut steps: impl FnMut(&mut Block<R>),
+) -> Block<R> {
     let mut block = start(model, first, WIDE);
     for control_step in 0..BEFORE {
         act(model, &mut block, first, WIDE, control_step);
@@ -27,11 +28,11 @@ fn crawling<const W: usize>(
 }
 
 /// The control steps that are looked at, one after the other.
-fn crawl<const W: usize>(
+fn crawl<R: Row<Number = f64>>(
     model: &Model,
-    block: &mut Block<W>,
+    block: &mut Block<R>,
     first: usize,
-    mut steps: impl FnMut(&mut Block<W>),
+    mut steps: impl FnMut(&mut Block<R>),
 ) {
     for control_step in BEFORE..BEFORE + CONTROL_STEPS {
         act(model, block, first, WIDE, control_step);
@@ -39,11 +40,11 @@ fn crawl<const W: usize>(
     }
 }
 
-fn advance_wide(model: &Model, block: &mut Block<WIDE>) {
+fn advance_wide(model: &Model, block: &mut Block<[f64; WIDE]>) {
     block.advance_on(InstructionSet::widest(), model, model.steps_per_control);
 }
 
-fn same<const W: usize>(one: &Block<W>, other: &Block<W>) -> bool {
+fn same<R: Row<Number = f64>>(one: &Block<R>, other: &Block<R>) -> bool {
     one.state_rows().iter().zip(other.state_rows()).all(|(a, b)| ***a == **b)
 }
 
@@ -69,7 +70,8 @@ pub fn count(model: &Model, latency_ns: [f64; KINDS.len()]) -> Result<(), String
     let mut alone = Sums::new(model);
     let (mut counters, mut before) = (Counters::default(), Counters::default());
     for robot in 0..WIDE {
-        let steps = |block: &mut Block<1>| advance(Scalar, model, block, model.steps_per_control);
+        let steps =
+            |block: &mut Block<[f64; 1]>| advance(Scalar, model, block, model.steps_per_control);
         let mut block = crawling(model, robot, steps);
         before = before.plus(block.counters);
         crawl(model, &mut block, robot, |block| {
@@ -107,26 +109,32 @@ impl Sums {
     }
 
     /// A step, phase by phase, and once more as a whole for the chain that goes through all of it.
-    fn step<const W: usize>(
+    fn step<R: Row<Number = f64>>(
         &mut self,
         model: &Model,
         latency_ns: [f64; KINDS.len()],
-        block: &mut Block<W>,
+        block: &mut Block<R>,
     ) {
         let mut whole = block.clone();
-        let run = || model.phases.iter().for_each(|&p| run_phase(Counting, model, &mut whole, p));
+        let run = || {
+            model
+                .phases
+                .iter()
+                .for_each(|&p| run_phase(Counting(PhantomData), model, &mut whole, p))
+        };
         self.add(self.names.len() - 1, &tallied(latency_ns, run));
         self.phases(model, latency_ns, block);
     }
 
-    fn phases<const W: usize>(
+    fn phases<R: Row<Number = f64>>(
         &mut self,
         model: &Model,
         latency_ns: [f64; KINDS.len()],
-        block: &mut Block<W>,
+        block: &mut Block<R>,
     ) {
         for (place, &phase) in model.phases.iter().enumerate() {
-            let found = tallied(latency_ns, || run_phase(Counting, model, block, phase));
+            let found =
+                tallied(latency_ns, || run_phase(Counting(PhantomData), model, block, phase));
             self.add(place, &found);
         }
         block.counters.steps += 1;
@@ -155,8 +163,8 @@ impl Sums {
 /// If sixteen lanes do not do what eight do.
 pub fn measure(model: &Model, runs: usize) -> Result<(), String> {
     let eight = crawling(model, 0, |block| advance_wide(model, block));
-    let sixteen: Block<TWIN> = crawling(model, 0, |block| advance_twin(model, block));
-    let one: Vec<Block<1>> = (0..WIDE)
+    let sixteen: Block<[f64; TWIN]> = crawling(model, 0, |block| advance_twin(model, block));
+    let one: Vec<Block<[f64; 1]>> = (0..WIDE)
         .map(|robot| {
             crawling(model, robot, |block| advance(Scalar, model, block, model.steps_per_control))
         })
@@ -168,7 +176,7 @@ pub fn measure(model: &Model, runs: usize) -> Result<(), String> {
     let widest = InstructionSet::widest().name();
     for _ in 0..runs {
         for set in InstructionSet::available() {
-            let whole = |block: &mut Block<WIDE>| {
+            let whole = |block: &mut Block<[f64; WIDE]>| {
                 block.advance_on(set, model, model.steps_per_control);
             };
             print(
@@ -197,11 +205,11 @@ fn print(set: &str, lanes: usize, phase: &str, ns: f64) {
 }
 
 /// Time of all solver steps, actions left out.
-fn run<const W: usize>(
+fn run<R: Row<Number = f64>>(
     model: &Model,
-    mut block: Block<W>,
+    mut block: Block<R>,
     first: usize,
-    mut steps: impl FnMut(&mut Block<W>),
+    mut steps: impl FnMut(&mut Block<R>),
 ) -> Duration {
     let mut sum = Duration::ZERO;
     crawl(model, &mut block, first, |block| {
@@ -213,7 +221,7 @@ fn run<const W: usize>(
 }
 
 /// Prints the time of each phase.
-fn by_phases(model: &Model, set: InstructionSet, mut block: Block<WIDE>, steps: f64) {
+fn by_phases(model: &Model, set: InstructionSet, mut block: Block<[f64; WIDE]>, steps: f64) {
     let mut sums = vec![Duration::ZERO; model.phases.len()];
     crawl(model, &mut block, 0, |block| {
         for _ in 0..model.steps_per_control {
@@ -248,12 +256,12 @@ fn clock_ns() -> f64 {
 }
 
 /// Two blocks side by side.
-fn advance_twin(model: &Model, block: &mut Block<TWIN>) {
-    struct Task<'a>(&'a Model, &'a mut Block<TWIN>);
+fn advance_twin(model: &Model, block: &mut Block<[f64; TWIN]>) {
+    struct Task<'a>(&'a Model, &'a mut Block<[f64; TWIN]>);
     impl WideTask for Task<'_> {
         type Output = ();
         #[inline(always)]
-        fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) {
+        fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) {
             advance(Twin(isa), self.0, self.1, self.0.steps_per_control);
         }
     }

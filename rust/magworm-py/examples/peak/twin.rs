@@ -129,8 +129,8 @@ fn halves(row: &[f64; TWIN]) -> (&[f64; WIDE], &[f64; WIDE]) {
     (&halves[0], &halves[1])
 }
 
-impl<I: Isa<WIDE, Number = f64>> Isa<TWIN> for Twin<I> {
-    type Number = I::Number;
+impl<I: Isa<Row = [f64; WIDE]>> Isa for Twin<I> {
+    type Row = [f64; TWIN];
     type F = Pair<I::F>;
     type M = Pair<I::M>;
 

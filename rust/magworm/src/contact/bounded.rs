@@ -13,10 +13,10 @@ const AGREED: f64 = 1e-3;
 
 /// Friction is bounded by what the normal impulse of the step before allows.
 #[inline(always)]
-pub(super) fn bound_by_last<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn bound_by_last<const D: usize, I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    work: &mut Workspace<W, I::Number>,
+    work: &mut Workspace<I::Row>,
     c: usize,
 ) {
     let coefficient = isa.load(&work.coefficient[c]);
@@ -27,11 +27,11 @@ pub(super) fn bound_by_last<const W: usize, const D: usize, I: Isa<W>>(
 /// Brings the bounds of friction halfway to those of the normal impulses found, in the lanes of a mask; the
 /// lanes where they agree.
 #[inline(always)]
-pub(super) fn relax<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn relax<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
 ) -> I::M {
     let zero = isa.splat(0.0);
@@ -55,10 +55,10 @@ pub(super) fn relax<const W: usize, const D: usize, I: Isa<W>>(
 
 /// What Coulomb's law allows with the normal impulse found, and the bound in force.
 #[inline(always)]
-fn found_and_bound<const W: usize, I: Isa<W>>(
+fn found_and_bound<I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     c: usize,
 ) -> [I::F; 2] {
     let coefficient = isa.load(&block.contact.coefficient[c]);

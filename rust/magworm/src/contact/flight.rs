@@ -14,11 +14,7 @@ use crate::state::Block;
 
 /// Whether any point of the lanes of a mask touches at the start of the step.
 #[inline(always)]
-pub(super) fn touching<const W: usize, I: Isa<W>>(
-    isa: I,
-    block: &Block<W, I::Number>,
-    mask: I::M,
-) -> bool {
+pub(super) fn touching<I: Isa>(isa: I, block: &Block<I::Row>, mask: I::M) -> bool {
     let mut count = isa.splat(0.0);
     for row in block.contact.touching.iter() {
         count = count + isa.load(row);
@@ -27,19 +23,19 @@ pub(super) fn touching<const W: usize, I: Isa<W>>(
 }
 
 /// Takes the step where every lane that runs stays in the air, given that none touches at its start; whether they do.
-pub(super) fn fly<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn fly<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     running: I::M,
 ) -> bool {
     solve_free(isa, model, block);
     isa.vectorize(
         #[inline(always)]
         || {
-            start::<W, D, I>(isa, model, block);
-            turn::<W, D, I>(isa, model, block, running);
-            let flies = solved(isa, block) & above::<W, D, I>(isa, model, block);
+            start::<D, I>(isa, model, block);
+            turn::<D, I>(isa, model, block, running);
+            let flies = solved(isa, block) & above::<D, I>(isa, model, block);
             if !(flies | !running).all() {
                 return false;
             }
@@ -53,7 +49,7 @@ pub(super) fn fly<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Whether the iteration would end with the whole step.
 #[inline(always)]
-fn solved<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W, I::Number>) -> I::M {
+fn solved<I: Isa>(isa: I, block: &mut Block<I::Row>) -> I::M {
     free_residual(isa, &mut block.contact, isa.splat(1.0));
     let tolerance = Search::load(isa, &block.contact.search).tolerance;
     size_of_residual(isa, &block.contact).le(tolerance)
@@ -61,16 +57,12 @@ fn solved<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W, I::Number>) ->
 
 /// Whether no point presses at the end of the step.
 #[inline(always)]
-fn above<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &Block<W, I::Number>,
-) -> I::M {
+fn above<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
     let work = &block.contact;
     let mut above = isa.splat(0.0).eq(isa.splat(0.0));
     for c in 0..model.contacts.len() {
-        let [up, ..] = load_vector::<W, D, I>(isa, &work.velocity, c);
-        let [change, ..] = load_vector::<W, D, I>(isa, &work.velocity_change, c);
+        let [up, ..] = load_vector::<D, I>(isa, &work.velocity, c);
+        let [change, ..] = load_vector::<D, I>(isa, &work.velocity_change, c);
         above = above & (up + change).ge(isa.splat(0.0));
     }
     above
@@ -78,7 +70,7 @@ fn above<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Points in the air hold no impulses.
 #[inline(always)]
-fn release<const W: usize, I: Isa<W>>(isa: I, block: &mut Block<W, I::Number>, mask: I::M) {
+fn release<I: Isa>(isa: I, block: &mut Block<I::Row>, mask: I::M) {
     let zero = isa.splat(0.0);
     for rows in [&mut block.normal, &mut block.pad] {
         for row in rows.iter_mut() {

@@ -41,10 +41,10 @@ pub(super) fn along<F: Real, const D: usize>(a: [F; 2], b: [F; 2]) -> F {
 /// step decides: up to v_d μ_s holds for the step, beyond it μ_d. One coefficient per step keeps the law
 /// monotone, and its limit for small steps is the paper's.
 #[inline(always)]
-pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn first_guess<const D: usize, I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     c: usize,
     contact: &Contact,
 ) {
@@ -53,8 +53,8 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let before = isa.load(&block.mode[c]);
     let was_closed = !before.eq(open);
     let closed = isa.load(&block.contact.touching[c]).gt(zero);
-    let bias = load_vector::<W, D, I>(isa, &block.contact.bias, c);
-    let u = start_velocity::<W, D, I>(isa, block, c, contact);
+    let bias = load_vector::<D, I>(isa, &block.contact.bias, c);
+    let u = start_velocity::<D, I>(isa, block, c, contact);
     let along = [u[1], u[2]];
     let speed = length::<I::F, D>(along);
     let slow = speed.le(ground.transition_speed);
@@ -72,7 +72,7 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
     let everywhere = zero.eq(zero);
     let work = &mut block.contact;
     isa.store(coefficient, &mut work.coefficient[c]);
-    store_vector::<W, D, I>(isa, everywhere, &warm, &mut work.warm, c);
+    store_vector::<D, I>(isa, everywhere, &warm, &mut work.warm, c);
     response.store(isa, everywhere, &mut work.response, c);
     for k in 0..2 {
         isa.store(zero, &mut work.slip[2 * c + k]);
@@ -81,10 +81,10 @@ pub(super) fn first_guess<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Another start, where the first led nowhere: what touches at the start of the step sticks, or slides without friction.
 #[inline(always)]
-pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn restart<const D: usize, I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    work: &mut Workspace<W, I::Number>,
+    work: &mut Workspace<I::Row>,
     c: usize,
     sticks: bool,
     mask: I::M,
@@ -93,7 +93,7 @@ pub(super) fn restart<const W: usize, const D: usize, I: Isa<W>>(
     let touching = isa.load(&work.touching[c]).gt(zero);
     let normal = I::F::select(touching, ground.weight, zero);
     let held = if sticks { normal } else { zero };
-    let bias = load_vector::<W, D, I>(isa, &work.bias, c);
+    let bias = load_vector::<D, I>(isa, &work.bias, c);
     let mut force = [-(normal * bias[0]), zero, zero];
     if sticks {
         for k in 1..D {

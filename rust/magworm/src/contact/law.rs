@@ -53,11 +53,11 @@ impl<F: Real> Ground<F> {
 
     /// The law with the factors of a block.
     #[inline(always)]
-    pub(super) fn of<const W: usize, I: Isa<W, F = F>>(
+    pub(super) fn of<I: Isa<F = F>>(
         isa: I,
         law: &GroundLaw,
         step_s: f64,
-        block: &Block<W, I::Number>,
+        block: &Block<I::Row>,
     ) -> Self {
         let of_static = isa.load(&block.factors[Parameter::StaticFriction as usize]);
         let of_dynamic = isa.load(&block.factors[Parameter::DynamicFriction as usize]);
@@ -216,11 +216,7 @@ impl<F: Real> Response<F> {
     }
 
     #[inline(always)]
-    pub(super) fn load<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
-        isa: I,
-        rows: &[[I::Number; W]],
-        c: usize,
-    ) -> Self {
+    pub(super) fn load<I: Isa<F = F, M = F::Mask>>(isa: I, rows: &[I::Row], c: usize) -> Self {
         let rows = &rows[RESPONSE * c..RESPONSE * (c + 1)];
         Self {
             force: [isa.load(&rows[0]), isa.load(&rows[1]), isa.load(&rows[2])],
@@ -231,11 +227,11 @@ impl<F: Real> Response<F> {
     }
 
     #[inline(always)]
-    pub(super) fn store<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+    pub(super) fn store<I: Isa<F = F, M = F::Mask>>(
         &self,
         isa: I,
         mask: I::M,
-        rows: &mut [[I::Number; W]],
+        rows: &mut [I::Row],
         c: usize,
     ) {
         let rows = &mut rows[RESPONSE * c..RESPONSE * (c + 1)];

@@ -60,17 +60,13 @@ type Vector<F> = [F; 3];
 
 /// Writes the lanes of a mask.
 #[inline(always)]
-fn store_where<const W: usize, I: Isa<W>>(isa: I, mask: I::M, new: I::F, row: &mut [I::Number; W]) {
+fn store_where<I: Isa>(isa: I, mask: I::M, new: I::F, row: &mut I::Row) {
     isa.store(I::F::select(mask, new, isa.load(row)), row);
 }
 
 /// D rows as a vector.
 #[inline(always)]
-fn load_vector<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    rows: &[[I::Number; W]],
-    c: usize,
-) -> Vector<I::F> {
+fn load_vector<const D: usize, I: Isa>(isa: I, rows: &[I::Row], c: usize) -> Vector<I::F> {
     let rows = &rows[D * c..][..D];
     let mut vector = [isa.splat(0.0); 3];
     for k in 0..D {
@@ -81,11 +77,11 @@ fn load_vector<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Writes the lanes of a mask of D rows.
 #[inline(always)]
-fn store_vector<const W: usize, const D: usize, I: Isa<W>>(
+fn store_vector<const D: usize, I: Isa>(
     isa: I,
     mask: I::M,
     vector: &Vector<I::F>,
-    rows: &mut [[I::Number; W]],
+    rows: &mut [I::Row],
     c: usize,
 ) {
     let rows = &mut rows[D * c..][..D];

@@ -12,11 +12,7 @@ use crate::state::Block;
 
 /// Before the first iteration: nothing moves, and nothing is known.
 #[inline(always)]
-pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub(super) fn start<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
     let kept = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
@@ -36,18 +32,19 @@ pub(super) fn start<const W: usize, const D: usize, I: Isa<W>>(
         size = size + right * right * mobility;
     }
     for c in 0..model.contacts.len() {
-        let velocity = load_vector::<W, D, I>(isa, &work.bias, c);
-        store_vector::<W, D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
+        let velocity = load_vector::<D, I>(isa, &work.bias, c);
+        store_vector::<D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
     }
-    Search::new(size * (I::Number::RESIDUAL * I::Number::RESIDUAL)).store(isa, &mut work.search);
+    Search::new(size * (<I::F as Real>::Number::RESIDUAL * <I::F as Real>::Number::RESIDUAL))
+        .store(isa, &mut work.search);
 }
 
 /// A new direction in the lanes of a mask, to the solution of the linearised system, and what changes along it.
 #[inline(always)]
-pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn turn<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
 ) {
     let kept = model.system.kept();
@@ -67,32 +64,32 @@ pub(super) fn turn<const W: usize, const D: usize, I: Isa<W>>(
         &mut work.imbalance_change,
     );
     for (c, contact) in model.contacts.iter().enumerate() {
-        let arm = load_vector::<W, D, I>(isa, &work.arm, c);
+        let arm = load_vector::<D, I>(isa, &work.arm, c);
         let change =
-            point_velocity::<W, D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
-        store_vector::<W, D, I>(isa, mask, &change, &mut work.velocity_change, c);
+            point_velocity::<D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
+        store_vector::<D, I>(isa, mask, &change, &mut work.velocity_change, c);
     }
 }
 
 /// One trial in the lanes that are left; which of them took it.
 #[inline(always)]
-pub(super) fn attempt<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn attempt<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     left: I::M,
     bounded: bool,
 ) -> I::M {
     let mut search = Search::load(isa, &block.contact.search);
     let step = search.step;
-    let found = residual::<W, D, I>(isa, model, ground, block, step, bounded);
+    let found = residual::<D, I>(isa, model, ground, block, step, bounded);
     let taken = search.judge(found) & left;
     search.store(isa, &mut block.contact.search);
     if taken.any() {
         advance(isa, block, step, taken);
         for c in 0..model.contacts.len() {
-            linearise::<W, D, I>(isa, ground, block, c, taken, bounded);
+            linearise::<D, I>(isa, ground, block, c, taken, bounded);
         }
     }
     taken
@@ -100,37 +97,34 @@ pub(super) fn attempt<const W: usize, const D: usize, I: Isa<W>>(
 
 /// |S v − s − Jᵀ λ|² at a step along the direction.
 #[inline(always)]
-fn residual<const W: usize, const D: usize, I: Isa<W>>(
+fn residual<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     step: I::F,
     bounded: bool,
 ) -> I::F {
     let work = &mut block.contact;
     free_residual(isa, work, step);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let mut u = load_vector::<W, D, I>(isa, &work.velocity, c);
-        let change = load_vector::<W, D, I>(isa, &work.velocity_change, c);
+        let mut u = load_vector::<D, I>(isa, &work.velocity, c);
+        let change = load_vector::<D, I>(isa, &work.velocity_change, c);
         for k in 0..D {
             u[k] = u[k] + change[k] * step;
         }
-        let point = point::<W, D, I>(isa, work, c);
+        let point = point::<D, I>(isa, work, c);
         let [up, x, z] = point.impulse::<D>(ground, &u, bounded).impulse;
-        let arm = load_vector::<W, D, I>(isa, &work.arm, c);
+        let arm = load_vector::<D, I>(isa, &work.arm, c);
         let rows = &mut work.residual[contact.place..];
-        add_force::<W, D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
+        add_force::<D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
     }
     size_of_residual(isa, work)
 }
 
 /// |r|² in the metric of 1/diag S.
 #[inline(always)]
-pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(
-    isa: I,
-    work: &Workspace<W, I::Number>,
-) -> I::F {
+pub(super) fn size_of_residual<I: Isa>(isa: I, work: &Workspace<I::Row>) -> I::F {
     let residuals = &*work.residual;
     let mobilities = &work.mobility[..residuals.len()];
     let mut sum = isa.splat(0.0);
@@ -143,11 +137,7 @@ pub(super) fn size_of_residual<const W: usize, I: Isa<W>>(
 
 /// S v − s at a step along the direction.
 #[inline(always)]
-pub(super) fn free_residual<const W: usize, I: Isa<W>>(
-    isa: I,
-    work: &mut Workspace<W, I::Number>,
-    step: I::F,
-) {
+pub(super) fn free_residual<I: Isa>(isa: I, work: &mut Workspace<I::Row>, step: I::F) {
     let residuals = &mut *work.residual;
     let imbalance = &work.imbalance[..residuals.len()];
     let changes = &work.imbalance_change[..residuals.len()];
@@ -159,12 +149,7 @@ pub(super) fn free_residual<const W: usize, I: Isa<W>>(
 
 /// Goes a step along the direction in the lanes of a mask.
 #[inline(always)]
-fn advance<const W: usize, I: Isa<W>>(
-    isa: I,
-    block: &mut Block<W, I::Number>,
-    step: I::F,
-    mask: I::M,
-) {
+fn advance<I: Isa>(isa: I, block: &mut Block<I::Row>, step: I::F, mask: I::M) {
     let work = &mut block.contact;
     follow(isa, &mut work.known, &work.direction, step, mask);
     follow(isa, &mut work.imbalance, &work.imbalance_change, step, mask);
@@ -173,10 +158,10 @@ fn advance<const W: usize, I: Isa<W>>(
 
 /// Adds a step along changes in the lanes of a mask.
 #[inline(always)]
-pub(super) fn follow<const W: usize, I: Isa<W>>(
+pub(super) fn follow<I: Isa>(
     isa: I,
-    rows: &mut [[I::Number; W]],
-    changes: &[[I::Number; W]],
+    rows: &mut [I::Row],
+    changes: &[I::Row],
     step: I::F,
     mask: I::M,
 ) {
@@ -189,17 +174,17 @@ pub(super) fn follow<const W: usize, I: Isa<W>>(
 
 /// Impulses, mode and response of a point at its velocity, in the lanes of a mask.
 #[inline(always)]
-fn linearise<const W: usize, const D: usize, I: Isa<W>>(
+fn linearise<const D: usize, I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     c: usize,
     mask: I::M,
     bounded: bool,
 ) {
-    let u = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
-    let bias = load_vector::<W, D, I>(isa, &block.contact.bias, c);
-    let point = point::<W, D, I>(isa, &block.contact, c);
+    let u = load_vector::<D, I>(isa, &block.contact.velocity, c);
+    let bias = load_vector::<D, I>(isa, &block.contact.bias, c);
+    let point = point::<D, I>(isa, &block.contact, c);
     let found = point.impulse::<D>(ground, &u, bounded);
     // What slid the other way passed the place where it sticks.
     let slip = &mut block.contact.slip;
@@ -223,13 +208,9 @@ fn linearise<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn point<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    work: &Workspace<W, I::Number>,
-    c: usize,
-) -> Point<I::F> {
+fn point<const D: usize, I: Isa>(isa: I, work: &Workspace<I::Row>, c: usize) -> Point<I::F> {
     Point {
-        warm: load_vector::<W, D, I>(isa, &work.warm, c),
+        warm: load_vector::<D, I>(isa, &work.warm, c),
         coefficient: isa.load(&work.coefficient[c]),
         bound: isa.load(&work.bound[c]),
     }

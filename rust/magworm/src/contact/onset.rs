@@ -14,18 +14,18 @@ use crate::state::Block;
 
 /// Gives points that passed v_d in the solution of this step their mean coefficient; the lanes where there are any.
 #[inline(always)]
-pub(super) fn weaken<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn weaken<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
 ) -> I::M {
     let (limit, lost) = (ground.transition_speed, ground.static_friction - ground.dynamic_friction);
     let mut somewhere = limit.lt(limit);
     for (c, contact) in model.contacts.iter().enumerate() {
-        let start = start_velocity::<W, D, I>(isa, block, c, contact);
-        let end = load_vector::<W, D, I>(isa, &block.contact.velocity, c);
+        let start = start_velocity::<D, I>(isa, block, c, contact);
+        let end = load_vector::<D, I>(isa, &block.contact.velocity, c);
         let before = length::<I::F, D>([start[1], start[2]]);
         let after = length::<I::F, D>([end[1], end[2]]);
         let slides = isa.load(&block.mode[c]).eq(isa.splat(Mode::SLIDE));

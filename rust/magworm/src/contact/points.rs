@@ -10,28 +10,24 @@ use crate::state::Block;
 const RECOVERY_M_S: f64 = 0.1;
 
 /// Fills arms and approach velocities of all contact points, and which of them touch.
-pub fn detect<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn detect<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(law) = &model.program.ground else { return };
     isa.vectorize(
         #[inline(always)]
         || {
             let ground = Ground::of(isa, law, model.step_s, block);
             for (c, contact) in model.contacts.iter().enumerate() {
-                detect_point::<W, D, I>(isa, &ground, block, c, contact, model.step_s);
+                detect_point::<D, I>(isa, &ground, block, c, contact, model.step_s);
             }
         },
     );
 }
 
 #[inline(always)]
-fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
+fn detect_point<const D: usize, I: Isa>(
     isa: I,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     c: usize,
     contact: &Contact,
     step_s: f64,
@@ -63,36 +59,36 @@ fn detect_point<const W: usize, const D: usize, I: Isa<W>>(
     let inside = gap.lt(isa.splat(0.0));
     let lead_s = I::F::select(inside, ground.lead_s, isa.splat(step_s));
     let approach = (gap / lead_s).max(isa.splat(-RECOVERY_M_S));
-    let u = point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
-    let mut bias = arc::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
+    let u = point_velocity::<D, I>(isa, &block.v, contact.dof, contact.rigid, &arm);
+    let mut bias = arc::<D, I>(isa, &block.v, contact.dof, contact.rigid, &arm, 0.5 * step_s);
     bias[0] = bias[0] + approach;
     // What touched, or would pass through the ground at the speed that it has. What is not a number does neither.
     let was_closed = !isa.load(&block.mode[c]).eq(isa.splat(Mode::OPEN));
     let zero = isa.splat(0.0);
     let closed = was_closed | (u[0] + bias[0]).le(zero);
     let work = &mut block.contact;
-    store_vector::<W, D, I>(isa, zero.eq(zero), &bias, &mut work.bias, c);
+    store_vector::<D, I>(isa, zero.eq(zero), &bias, &mut work.bias, c);
     isa.store(I::F::select(closed, isa.splat(1.0), zero), &mut work.touching[c]);
 }
 
 /// Velocity of a point at the start of the step.
 #[inline(always)]
-pub(super) fn start_velocity<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn start_velocity<const D: usize, I: Isa>(
     isa: I,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     c: usize,
     contact: &Contact,
 ) -> Vector<I::F> {
-    let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);
-    point_velocity::<W, D, I>(isa, &block.v, contact.dof, contact.rigid, &arm)
+    let arm = load_vector::<D, I>(isa, &block.contact.arm, c);
+    point_velocity::<D, I>(isa, &block.v, contact.dof, contact.rigid, &arm)
 }
 
 /// What the rotation of a body within the step adds to the mean velocity of its point, ½ Δt ω × (ω × r): it
 /// moves on an arc, not along the tangent. Without it a foot that rocks on its toe would creep by ½ (ω Δt)² r a step.
 #[inline(always)]
-fn arc<const W: usize, const D: usize, I: Isa<W>>(
+fn arc<const D: usize, I: Isa>(
     isa: I,
-    velocities: &[[I::Number; W]],
+    velocities: &[I::Row],
     first: usize,
     rigid: bool,
     arm: &[I::F; 3],
@@ -117,9 +113,9 @@ fn arc<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Toe or heel in the plane, given in the axes of its magnet.
 #[inline(always)]
-fn sole_in_plane<const W: usize, I: Isa<W>>(
+fn sole_in_plane<I: Isa>(
     isa: I,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     body: usize,
     [along_m, up_m]: [f64; 2],
     arm: &mut [I::F; 3],
@@ -132,9 +128,9 @@ fn sole_in_plane<const W: usize, I: Isa<W>>(
 
 /// Corner of a foot in space, given in the axes of its magnet.
 #[inline(always)]
-fn corner<const W: usize, I: Isa<W>>(
+fn corner<I: Isa>(
     isa: I,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     body: usize,
     places_m: [f64; 3],
     arm: &mut [I::F; 3],
@@ -149,9 +145,9 @@ fn corner<const W: usize, I: Isa<W>>(
 
 /// Velocity of a point at an arm from the unknowns that start at `first`, V + ω × r: upwards, along x, along z.
 #[inline(always)]
-pub(super) fn point_velocity<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn point_velocity<const D: usize, I: Isa>(
     isa: I,
-    velocities: &[[I::Number; W]],
+    velocities: &[I::Row],
     first: usize,
     rigid: bool,
     arm: &[I::F; 3],

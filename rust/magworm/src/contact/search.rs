@@ -85,7 +85,7 @@ impl<F: Real> Search<F> {
     }
 
     #[inline(always)]
-    pub(super) fn load<const W: usize, I: Isa<W, F = F>>(isa: I, rows: &[[I::Number; W]]) -> Self {
+    pub(super) fn load<I: Isa<F = F>>(isa: I, rows: &[I::Row]) -> Self {
         Self {
             step: isa.load(&rows[0]),
             start: isa.load(&rows[1]),
@@ -96,11 +96,7 @@ impl<F: Real> Search<F> {
     }
 
     #[inline(always)]
-    pub(super) fn store<const W: usize, I: Isa<W, F = F>>(
-        &self,
-        isa: I,
-        rows: &mut [[I::Number; W]],
-    ) {
+    pub(super) fn store<I: Isa<F = F>>(&self, isa: I, rows: &mut [I::Row]) {
         let [best, place] = self.best;
         let all = [self.step, self.start, best, place, self.trials, self.tolerance];
         for k in 0..ROWS {

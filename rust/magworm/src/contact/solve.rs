@@ -19,23 +19,19 @@ use crate::model::Model;
 use crate::state::Block;
 
 /// Solves for the velocities of the kept unknowns at the end of the step into `next`; updates impulses and modes.
-pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn solve<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(law) = &model.program.ground else { return };
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let touching = isa.vectorize(
         #[inline(always)]
         || touching(isa, block, running),
     );
-    if touching || !fly::<W, D, I>(isa, model, block, running) {
+    if touching || !fly::<D, I>(isa, model, block, running) {
         let ground = isa.vectorize(
             #[inline(always)]
             || Ground::of(isa, law, model.step_s, block),
         );
-        press::<W, D, I>(isa, model, &ground, block, running);
+        press::<D, I>(isa, model, &ground, block, running);
     }
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
         block.next[unknown] = block.contact.known[row];
@@ -43,46 +39,46 @@ pub fn solve<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 /// The step of a block in which some point may touch.
-fn press<const W: usize, const D: usize, I: Isa<W>>(
+fn press<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     running: I::M,
 ) {
     isa.vectorize(
         #[inline(always)]
         || {
             for (c, contact) in model.contacts.iter().enumerate() {
-                first_guess::<W, D, I>(isa, ground, block, c, contact);
+                first_guess::<D, I>(isa, ground, block, c, contact);
             }
-            start::<W, D, I>(isa, model, block);
+            start::<D, I>(isa, model, block);
         },
     );
-    let left = settle::<W, D, I>(isa, model, ground, block, running, &PHASES);
+    let left = settle::<D, I>(isa, model, ground, block, running, &PHASES);
     let weaker = isa.vectorize(
         #[inline(always)]
-        || weaken::<W, D, I>(isa, model, ground, block, running & !left),
+        || weaken::<D, I>(isa, model, ground, block, running & !left),
     );
     if weaker.any() {
-        settle::<W, D, I>(isa, model, ground, block, weaker, &AGAIN);
+        settle::<D, I>(isa, model, ground, block, weaker, &AGAIN);
     }
 }
 
 /// Goes through phases in the lanes of a mask; those for which none found a solution.
-fn settle<const W: usize, const D: usize, I: Isa<W>>(
+fn settle<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
     phases: &[Phase],
 ) -> I::M {
     let trials = model.scene.solver.contact_iterations.div_ceil(PHASES.len() + AGAIN.len());
     let mut left = mask;
     for &phase in phases {
-        begin::<W, D, I>(isa, model, ground, block, left, phase);
-        let still = iterate::<W, D, I>(isa, model, ground, block, left, phase.friction, trials);
+        begin::<D, I>(isa, model, ground, block, left, phase);
+        let still = iterate::<D, I>(isa, model, ground, block, left, phase.friction, trials);
         if phase.friction != Friction::Lagged {
             left = still;
         }
@@ -142,11 +138,11 @@ const AGAIN: [Phase; 2] = [
 ];
 
 /// Starts an iteration in the lanes of a mask; its first trial is taken whatever it is.
-fn begin<const W: usize, const D: usize, I: Isa<W>>(
+fn begin<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
     phase: Phase,
 ) {
@@ -157,10 +153,10 @@ fn begin<const W: usize, const D: usize, I: Isa<W>>(
             let work = &mut block.contact;
             for c in 0..model.contacts.len() {
                 if matches!(phase.from, From::Stick | From::Slide) {
-                    restart::<W, D, I>(isa, ground, work, c, phase.from == From::Stick, mask);
+                    restart::<D, I>(isa, ground, work, c, phase.from == From::Stick, mask);
                 }
                 if phase.friction != Friction::Coulomb {
-                    bound_by_last::<W, D, I>(isa, ground, work, c);
+                    bound_by_last::<D, I>(isa, ground, work, c);
                 }
             }
             let mut search = Search::load(isa, &work.search);
@@ -169,20 +165,20 @@ fn begin<const W: usize, const D: usize, I: Isa<W>>(
         },
     );
     if !here {
-        solve_linearised::<W, D, I>(isa, model, block);
+        solve_linearised::<D, I>(isa, model, block);
         isa.vectorize(
             #[inline(always)]
-            || turn::<W, D, I>(isa, model, block, mask),
+            || turn::<D, I>(isa, model, block, mask),
         );
     }
 }
 
 /// Newton's iteration in the lanes of a mask; those that have not found a solution in so many trials.
-fn iterate<const W: usize, const D: usize, I: Isa<W>>(
+fn iterate<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
     ground: &Ground<I::F>,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     mask: I::M,
     friction: Friction,
     trials: usize,
@@ -191,7 +187,7 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
     for trial in 1..=trials {
         let taken = isa.vectorize(
             #[inline(always)]
-            || attempt::<W, D, I>(isa, model, ground, block, left, friction != Friction::Coulomb),
+            || attempt::<D, I>(isa, model, ground, block, left, friction != Friction::Coulomb),
         );
         block.counters.trials += 1;
         let mut solved = taken & Search::load(isa, &block.contact.search).solved();
@@ -199,7 +195,7 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
         if friction == Friction::Settled && solved.any() {
             solved = isa.vectorize(
                 #[inline(always)]
-                || relax::<W, D, I>(isa, model, ground, block, solved),
+                || relax::<D, I>(isa, model, ground, block, solved),
             );
         }
         left = left & !solved;
@@ -208,11 +204,11 @@ fn iterate<const W: usize, const D: usize, I: Isa<W>>(
             break;
         }
         if turning.any() {
-            solve_linearised::<W, D, I>(isa, model, block);
+            solve_linearised::<D, I>(isa, model, block);
             isa.vectorize(
                 #[inline(always)]
                 || {
-                    turn::<W, D, I>(isa, model, block, turning);
+                    turn::<D, I>(isa, model, block, turning);
                     let mut search = Search::load(isa, &block.contact.search);
                     search.begin(turning);
                     search.store(isa, &mut block.contact.search);

@@ -11,30 +11,26 @@ use crate::model::{Model, body_size};
 use crate::state::Block;
 
 /// Solves the system into `contact.target`.
-pub(super) fn solve_linearised<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn solve_linearised<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
 ) {
     copy(isa, model, block);
     isa.vectorize(
         #[inline(always)]
-        || add_responses::<W, D, I>(isa, model, block),
+        || add_responses::<D, I>(isa, model, block),
     );
     eliminate(isa, model, block);
 }
 
 /// The same where no point responds: S v = s.
-pub(super) fn solve_free<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub(super) fn solve_free<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     copy(isa, model, block);
     eliminate(isa, model, block);
 }
 
-fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+fn copy<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let band = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
     unsymmetric::expand(isa, band, symmetric, &mut block.contact.matrix);
@@ -44,37 +40,26 @@ fn copy<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I
     }
 }
 
-fn eliminate<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+fn eliminate<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (band, body) = (model.system.kept(), model.system.body());
     unsymmetric::solve(isa, band, body, &mut block.contact.matrix, &mut block.contact.target);
     block.counters.factorisations += 1;
 }
 
 #[inline(always)]
-fn add_responses<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn add_responses<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let band = model.system.kept();
     let ghosts = band.half_bandwidth();
     for (c, contact) in model.contacts.iter().enumerate() {
         let response = Response::load(isa, &block.contact.response, c);
-        let arm = load_vector::<W, D, I>(isa, &block.contact.arm, c);
+        let arm = load_vector::<D, I>(isa, &block.contact.arm, c);
         let place = unsymmetric::at(band, contact.place, contact.place);
         let matrix = &mut block.contact.matrix;
         let right = &mut block.contact.target[ghosts + contact.place..];
         let f = [response.force[1], response.force[0], response.force[2]];
-        add_force::<W, D, I>(isa, right, contact.rigid, &arm, &f);
+        add_force::<D, I>(isa, right, contact.rigid, &arm, &f);
         let stride = unsymmetric::row_length(ghosts) - 1;
-        add_block::<W, D, I>(
-            isa,
-            matrix,
-            [place, stride],
-            contact.rigid,
-            &arm,
-            &columns(&response),
-        );
+        add_block::<D, I>(isa, matrix, [place, stride], contact.rigid, &arm, &columns(&response));
     }
 }
 
@@ -89,9 +74,9 @@ fn columns<F: Real>(response: &Response<F>) -> [[F; 3]; 3] {
 
 /// Adds the force at a point to the rows of its body.
 #[inline(always)]
-pub(super) fn add_force<const W: usize, const D: usize, I: Isa<W>>(
+pub(super) fn add_force<const D: usize, I: Isa>(
     isa: I,
-    rows: &mut [[I::Number; W]],
+    rows: &mut [I::Row],
     rigid: bool,
     arm: &[I::F; 3],
     force: &[I::F; 3],
@@ -112,9 +97,9 @@ pub(super) fn add_force<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Adds Jᵀ C J to the rows of a body: entry (i, j) stands at `place` + i · stride + j.
 #[inline(always)]
-fn add_block<const W: usize, const D: usize, I: Isa<W>>(
+fn add_block<const D: usize, I: Isa>(
     isa: I,
-    matrix: &mut [[I::Number; W]],
+    matrix: &mut [I::Row],
     [place, stride]: [usize; 2],
     rigid: bool,
     arm: &[I::F; 3],
@@ -164,6 +149,6 @@ fn add_block<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn add<const W: usize, I: Isa<W>>(isa: I, entry: &mut [I::Number; W], value: I::F) {
+fn add<I: Isa>(isa: I, entry: &mut I::Row, value: I::F) {
     isa.store(isa.load(entry) + value, entry);
 }

@@ -1,55 +1,55 @@
 //! What the contact solve of a step works with.
 
 use super::law::RESPONSE;
-use crate::lanes::{Number, unsymmetric};
+use crate::lanes::{Row, unsymmetric};
 use crate::model::Model;
 use crate::state::Rows;
 
 /// Rows of the contact solve of one step; nothing in here outlives it.
 #[derive(Clone, Debug)]
-pub struct Workspace<const W: usize, N: Number = f64> {
+pub struct Workspace<R: Row> {
     /// From a point's body to the point [m], shape [contacts × D].
-    pub arm: Rows<W, N>,
+    pub arm: Rows<R>,
     /// What is known of the velocity that the law of a point sees [m/s]: upwards the gap over the time within
     /// which it closes, and what rotation bends, shape [contacts × D].
-    pub bias: Rows<W, N>,
+    pub bias: Rows<R>,
     /// Coefficient of friction in this step, shape [contacts].
-    pub coefficient: Rows<W, N>,
+    pub coefficient: Rows<R>,
     /// Impulses of the step before, upwards and along the ground: there λ⁰ [N·s], shape [contacts × D].
-    pub warm: Rows<W, N>,
+    pub warm: Rows<R>,
     /// Greatest tangential impulse where friction has a bound of its own [N·s], shape [contacts].
-    pub bound: Rows<W, N>,
+    pub bound: Rows<R>,
     /// Impulses linearised in the velocities of the points, see `law::Response`, shape [contacts × 9].
-    pub response: Rows<W, N>,
+    pub response: Rows<R>,
     /// 1 where a point was closed or is about to sink at the start of the step, shape [contacts].
-    pub touching: Rows<W, N>,
+    pub touching: Rows<R>,
     /// Direction in which friction pushed a point when it was linearised last, shape [contacts × 2].
-    pub slip: Rows<W, N>,
+    pub slip: Rows<R>,
     /// Velocities of the points, with the bias [m/s], shape [contacts × D].
-    pub velocity: Rows<W, N>,
+    pub velocity: Rows<R>,
     /// How they change along the direction of search, shape [contacts × D].
-    pub velocity_change: Rows<W, N>,
+    pub velocity_change: Rows<R>,
     /// Matrix of Newton's iteration, unsymmetric.
-    pub matrix: Rows<W, N>,
+    pub matrix: Rows<R>,
     /// Its right-hand side, then its solution, with ghost rows.
-    pub target: Rows<W, N>,
+    pub target: Rows<R>,
     /// v: velocities of the kept unknowns, shape [kept].
-    pub known: Rows<W, N>,
+    pub known: Rows<R>,
     /// Direction of search, shape [kept].
-    pub direction: Rows<W, N>,
+    pub direction: Rows<R>,
     /// S v − s: what contact has to balance [N·s], shape [kept].
-    pub imbalance: Rows<W, N>,
+    pub imbalance: Rows<R>,
     /// How it changes along the direction, shape [kept].
-    pub imbalance_change: Rows<W, N>,
+    pub imbalance_change: Rows<R>,
     /// S v − s − Jᵀ λ at a trial [N·s], shape [kept].
-    pub residual: Rows<W, N>,
+    pub residual: Rows<R>,
     /// 1 over the diagonal of S [1/kg], shape [kept].
-    pub mobility: Rows<W, N>,
+    pub mobility: Rows<R>,
     /// The search of each lane, see `search::Search`, shape [6].
-    pub search: Rows<W, N>,
+    pub search: Rows<R>,
 }
 
-impl<const W: usize, N: Number> Workspace<W, N> {
+impl<R: Row> Workspace<R> {
     /// Room for the contacts of a model.
     pub fn new(model: &Model) -> Self {
         let contacts = model.contacts.len();

@@ -26,12 +26,7 @@ fn curvature<F: Real>(law: Curvature, dot: F, cross: F) -> (F, F) {
 
 /// Adds all bending springs to the equations of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    scheme: Scheme<I::F>,
-) {
+pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme: Scheme<I::F>) {
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
     let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
     let places = Places { node: &block.node, q: &block.q };

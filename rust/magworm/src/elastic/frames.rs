@@ -14,11 +14,7 @@ use crate::state::Block;
 
 /// Brings the frames of the elements up to date with their tangents, and their sides with both.
 #[inline(always)]
-pub fn transport<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn transport<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     let (director, tangent, side) = (&mut *block.director, &mut *block.tangent, &mut *block.side);
     for (element, rigid) in model.coordinates.rigid.iter().enumerate() {
@@ -63,12 +59,7 @@ fn unit<F: Real>(a: &[F; 3]) -> [F; 3] {
 /// The angular velocity that a magnet has after it is that of its angular momentum I ω in the turned frame:
 /// this is the gyroscopic torque ω × I ω, without error in the momentum.
 #[inline(always)]
-pub fn turn<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    go: I::M,
-) {
+pub fn turn<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
     for (element, twist) in model.coordinates.twists.iter().enumerate() {
         let Some(dof) = *twist else { continue };
         let angle = isa.load(&block.next[dof]) * (0.5 * model.step_s);
@@ -113,9 +104,9 @@ fn rotated<F: Real>(a: &[F; 3], half: &[F; 3]) -> [F; 3] {
 
 /// I ω of a magnet, with its moments of inertia about tangent, up and side in the rows of `mass`.
 #[inline(always)]
-fn world_inertia<const W: usize, I: Isa<W>>(
+fn world_inertia<I: Isa>(
     isa: I,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     body: usize,
     dof: usize,
     rate: &[I::F; 3],
@@ -131,11 +122,7 @@ fn world_inertia<const W: usize, I: Isa<W>>(
 
 /// Tangent, up and side of a magnet.
 #[inline(always)]
-pub fn axes<const W: usize, I: Isa<W>>(
-    isa: I,
-    block: &Block<W, I::Number>,
-    body: usize,
-) -> [[I::F; 3]; 3] {
+pub fn axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3] {
     [
         load3(isa, &block.frame, 9 * body),
         load3(isa, &block.frame, 9 * body + 3),
@@ -144,22 +131,13 @@ pub fn axes<const W: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-pub(super) fn load3<const W: usize, I: Isa<W>>(
-    isa: I,
-    rows: &[[I::Number; W]],
-    first: usize,
-) -> [I::F; 3] {
+pub(super) fn load3<I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
     let rows = &rows[first..first + 3];
     [isa.load(&rows[0]), isa.load(&rows[1]), isa.load(&rows[2])]
 }
 
 #[inline(always)]
-pub(super) fn store3<const W: usize, I: Isa<W>>(
-    isa: I,
-    value: &[I::F; 3],
-    rows: &mut [[I::Number; W]],
-    first: usize,
-) {
+pub(super) fn store3<I: Isa>(isa: I, value: &[I::F; 3], rows: &mut [I::Row], first: usize) {
     let rows = &mut rows[first..first + 3];
     for axis in 0..3 {
         isa.store(value[axis], &mut rows[axis]);
@@ -168,13 +146,7 @@ pub(super) fn store3<const W: usize, I: Isa<W>>(
 
 /// Writes the lanes of `mask`.
 #[inline(always)]
-fn keep3<const W: usize, I: Isa<W>>(
-    isa: I,
-    mask: I::M,
-    value: &[I::F; 3],
-    rows: &mut [[I::Number; W]],
-    first: usize,
-) {
+fn keep3<I: Isa>(isa: I, mask: I::M, value: &[I::F; 3], rows: &mut [I::Row], first: usize) {
     let rows = &mut rows[first..first + 3];
     for axis in 0..3 {
         isa.store(I::F::select(mask, value[axis], isa.load(&rows[axis])), &mut rows[axis]);

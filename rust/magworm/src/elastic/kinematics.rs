@@ -10,18 +10,14 @@ use crate::state::Block;
 /// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date with `q`; in space also the
 /// frames of the elements.
 #[inline(always)]
-pub fn update<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn update<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     if D == 2 {
         angles(isa, model, block);
     } else {
         directors(isa, model, block);
     }
-    nodes::<W, D, I>(isa, model, block);
-    elements::<W, D, I>(isa, model, block);
+    nodes::<D, I>(isa, model, block);
+    elements::<D, I>(isa, model, block);
     if D == 3 {
         frames::transport(isa, model, block);
     }
@@ -29,7 +25,7 @@ pub fn update<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Axis of each magnet in the plane, from its angle.
 #[inline(always)]
-fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+fn angles<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (q, frame) = (&*block.q, &mut *block.frame);
     for (body, dof) in model.coordinates.bodies.iter().enumerate() {
         let (sin, cos) = sin_cos(isa.load(&q[dof + 2]));
@@ -40,7 +36,7 @@ fn angles<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W,
 
 /// Axes of each magnet in space, from the frame of its element.
 #[inline(always)]
-fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+fn directors<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (director, frame) = (&*block.director, &mut *block.frame);
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         let up = load3(isa, director, 6 * magnet.element);
@@ -52,11 +48,7 @@ fn directors<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block
 }
 
 #[inline(always)]
-fn nodes<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn nodes<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (q, frame, held) = (&*block.q, &*block.frame, &*block.held);
     let places = &mut *block.node;
     let axes = if D == 2 { 2 } else { 9 };
@@ -85,11 +77,7 @@ fn nodes<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn elements<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn elements<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let node = &*block.node;
     let (tangent, lengths, inverses) =
         (&mut *block.tangent, &mut *block.length, &mut *block.inverse_length);

@@ -96,22 +96,22 @@ impl<F: Real> Scheme<F> {
 
 /// Node positions and unknowns, for gradients over rigid nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Places<'a, const W: usize, N> {
+pub struct Places<'a, R> {
     /// Node positions [m], shape [nodes × D].
-    pub node: &'a [[N; W]],
+    pub node: &'a [R],
     /// Unknowns [m, rad], shape [unknowns].
-    pub q: &'a [[N; W]],
+    pub q: &'a [R],
 }
 
 /// Left-hand and right-hand side of a step's equations.
 #[derive(Debug)]
-pub struct Equations<'a, const W: usize, N> {
+pub struct Equations<'a, R> {
     /// Banded matrix.
-    pub matrix: &'a mut [[N; W]],
+    pub matrix: &'a mut [R],
     /// Right-hand side, shape [unknowns].
-    pub right: &'a mut [[N; W]],
+    pub right: &'a mut [R],
     /// Velocities at the start of the step, as springs take them, shape [unknowns].
-    pub v: &'a [[N; W]],
+    pub v: &'a [R],
 }
 
 /// Gradient over a stencil's unknowns from gradients over its nodes, into `out`: an array that is
@@ -119,9 +119,9 @@ pub struct Equations<'a, const W: usize, N> {
 ///
 /// A rigid node at arm a from its magnet moves with δx = δX + δω × a, hence g_ω = a × g.
 #[inline(always)]
-pub fn gather<const W: usize, const D: usize, I: Isa<W>, const N: usize>(
+pub fn gather<const D: usize, I: Isa, const N: usize>(
     isa: I,
-    places: Places<'_, W, I::Number>,
+    places: Places<'_, I::Row>,
     stencil: &Stencil,
     gradient: &[[I::F; D]; N],
     out: &mut [I::F; MOST],
@@ -178,32 +178,32 @@ pub fn gather_twist<F: crate::lanes::Real>(
 
 /// Adds `weight` · g gᵀ to a banded matrix.
 #[inline(always)]
-pub fn add_rank_one<const W: usize, I: Isa<W>>(
+pub fn add_rank_one<I: Isa>(
     isa: I,
-    matrix: &mut [[I::Number; W]],
+    matrix: &mut [I::Row],
     stencil: &Stencil,
     gradient: &[I::F],
     weight: I::F,
 ) {
-    add_rank::<W, I, 1>(isa, matrix, stencil, [gradient], [weight]);
+    add_rank::<I, 1>(isa, matrix, stencil, [gradient], [weight]);
 }
 
 /// Adds Σ `weights` · g gᵀ over K gradients to a banded matrix; each entry is loaded and stored once.
 #[inline(always)]
-pub fn add_rank<const W: usize, I: Isa<W>, const K: usize>(
+pub fn add_rank<I: Isa, const K: usize>(
     isa: I,
-    matrix: &mut [[I::Number; W]],
+    matrix: &mut [I::Row],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
 ) {
     // The usual sizes unrolled: a magnet, free nodes, and nodes next to a magnet.
     match stencil.count {
-        3 => rank::<W, I, K, 3>(isa, matrix, stencil, gradients, weights),
-        4 => rank::<W, I, K, 4>(isa, matrix, stencil, gradients, weights),
-        5 => rank::<W, I, K, 5>(isa, matrix, stencil, gradients, weights),
-        6 => rank::<W, I, K, 6>(isa, matrix, stencil, gradients, weights),
-        7 => rank::<W, I, K, 7>(isa, matrix, stencil, gradients, weights),
+        3 => rank::<I, K, 3>(isa, matrix, stencil, gradients, weights),
+        4 => rank::<I, K, 4>(isa, matrix, stencil, gradients, weights),
+        5 => rank::<I, K, 5>(isa, matrix, stencil, gradients, weights),
+        6 => rank::<I, K, 6>(isa, matrix, stencil, gradients, weights),
+        7 => rank::<I, K, 7>(isa, matrix, stencil, gradients, weights),
         _ => {
             for row in 0..stencil.count {
                 rank_row(isa, matrix, stencil, gradients, weights, row);
@@ -213,9 +213,9 @@ pub fn add_rank<const W: usize, I: Isa<W>, const K: usize>(
 }
 
 #[inline(always)]
-fn rank<const W: usize, I: Isa<W>, const K: usize, const N: usize>(
+fn rank<I: Isa, const K: usize, const N: usize>(
     isa: I,
-    matrix: &mut [[I::Number; W]],
+    matrix: &mut [I::Row],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
@@ -226,9 +226,9 @@ fn rank<const W: usize, I: Isa<W>, const K: usize, const N: usize>(
 }
 
 #[inline(always)]
-fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
+fn rank_row<I: Isa, const K: usize>(
     isa: I,
-    matrix: &mut [[I::Number; W]],
+    matrix: &mut [I::Row],
     stencil: &Stencil,
     gradients: [&[I::F]; K],
     weights: [I::F; K],
@@ -253,9 +253,9 @@ fn rank_row<const W: usize, I: Isa<W>, const K: usize>(
 
 /// Adds `weight` · g to a vector.
 #[inline(always)]
-pub fn add_scaled<const W: usize, I: Isa<W>>(
+pub fn add_scaled<I: Isa>(
     isa: I,
-    vector: &mut [[I::Number; W]],
+    vector: &mut [I::Row],
     stencil: &Stencil,
     gradient: &[I::F],
     weight: I::F,
@@ -270,12 +270,7 @@ pub fn add_scaled<const W: usize, I: Isa<W>>(
 
 /// g·v over a stencil.
 #[inline(always)]
-pub fn rate<const W: usize, I: Isa<W>>(
-    isa: I,
-    vector: &[[I::Number; W]],
-    stencil: &Stencil,
-    gradient: &[I::F],
-) -> I::F {
+pub fn rate<I: Isa>(isa: I, vector: &[I::Row], stencil: &Stencil, gradient: &[I::F]) -> I::F {
     let dofs = &stencil.dofs[..stencil.count];
     let gradient = &gradient[..dofs.len()];
     let mut sum = isa.splat(0.0);
@@ -296,12 +291,8 @@ struct Springs<'a, F, const K: usize> {
 impl<F, const K: usize> Springs<'_, F, K> {
     /// Adds their impulses to the equations of a step.
     #[inline(always)]
-    fn add<const W: usize, I: Isa<W, F = F>>(
-        &self,
-        isa: I,
-        equations: &mut Equations<'_, W, I::Number>,
-        scheme: Scheme<F>,
-    ) where
+    fn add<I: Isa<F = F>>(&self, isa: I, equations: &mut Equations<'_, I::Row>, scheme: Scheme<F>)
+    where
         F: Real<Mask = I::M>,
     {
         let dt = scheme.dt;

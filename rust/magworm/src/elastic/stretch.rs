@@ -11,10 +11,10 @@ use crate::state::Block;
 
 /// Adds all axial springs to the equations of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+pub fn assemble<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     scheme: Scheme<I::F>,
 ) {
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
@@ -32,7 +32,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
         }
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
         let strain = isa.load(&length[e]) - spring.rest_m;
-        gather::<W, D, I, 2>(isa, places, &spring.stencil, &opposed(&t), &mut gradient);
+        gather::<D, I, 2>(isa, places, &spring.stencil, &opposed(&t), &mut gradient);
         let springs = Springs {
             stencil: &spring.stencil,
             gradients: [&gradient],
@@ -57,7 +57,7 @@ pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
                     n[axis] = isa.load(&rows[axis]);
                 }
             }
-            gather::<W, D, I, 2>(isa, places, &spring.stencil, &opposed(&n), &mut gradient);
+            gather::<D, I, 2>(isa, places, &spring.stencil, &opposed(&n), &mut gradient);
             add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, force * after_s);
             let turned = rate(isa, equations.v, &spring.stencil, &gradient) * before_s;
             add_scaled(isa, equations.right, &spring.stencil, &gradient, -(force * turned));

@@ -29,12 +29,7 @@ use crate::state::Block;
 
 /// Adds the bending and twisting springs of all nodes to the equations of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    scheme: Scheme<I::F>,
-) {
+pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme: Scheme<I::F>) {
     let zero = isa.splat(0.0);
     let mut gradients = [[zero; MOST]; 3];
     for (k, spring) in model.bend.iter().enumerate() {
@@ -87,11 +82,7 @@ struct Strains<F> {
 
 impl<F: Real> Joint<F> {
     #[inline(always)]
-    fn load<const W: usize, I: Isa<W, F = F>>(
-        isa: I,
-        block: &Block<W, I::Number>,
-        node: usize,
-    ) -> Self {
+    fn load<I: Isa<F = F>>(isa: I, block: &Block<I::Row>, node: usize) -> Self {
         let (e, f) = (node - 1, node);
         let te = load3(isa, &block.tangent, 3 * e);
         let tf = load3(isa, &block.tangent, 3 * f);
@@ -114,10 +105,10 @@ impl<F: Real> Joint<F> {
 
     /// Strains of the node's k-th spring; remembers the twist.
     #[inline(always)]
-    fn strains<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+    fn strains<I: Isa<F = F, M = F::Mask>>(
         &self,
         isa: I,
-        block: &mut Block<W, I::Number>,
+        block: &mut Block<I::Row>,
         law: Curvature,
         k: usize,
     ) -> Strains<F> {
@@ -139,12 +130,7 @@ impl<F: Real> Joint<F> {
 
     /// τ, on the branch nearest to that of the step before: it may pass ±π.
     #[inline(always)]
-    fn twist<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
-        &self,
-        isa: I,
-        block: &mut Block<W, I::Number>,
-        k: usize,
-    ) -> F {
+    fn twist<I: Isa<F = F, M = F::Mask>>(&self, isa: I, block: &mut Block<I::Row>, k: usize) -> F {
         let tangents = add_scaled(&self.te, isa.splat(1.0), &self.tf);
         let carried = add_scaled(&self.ue, -(dot(&self.ue, &self.tf) * self.over_chi), &tangents);
         let angle = atan2(dot(&carried, &self.sf) * -1.0, dot(&carried, &self.uf));
@@ -158,10 +144,10 @@ impl<F: Real> Joint<F> {
 
     /// Gradients of κ₁, κ₂ and τ over the spring's unknowns.
     #[inline(always)]
-    fn gradients<const W: usize, I: Isa<W, F = F, M = F::Mask>>(
+    fn gradients<I: Isa<F = F, M = F::Mask>>(
         &self,
         isa: I,
-        places: Places<'_, W, I::Number>,
+        places: Places<'_, I::Row>,
         spring: &Bend,
         strains: &Strains<F>,
         out: &mut [[F; MOST]; 3],
@@ -202,9 +188,9 @@ impl<F: Real> Joint<F> {
 
 /// Gradient over the stencil from those over the elements.
 #[inline(always)]
-fn over_nodes<const W: usize, I: Isa<W>>(
+fn over_nodes<I: Isa>(
     isa: I,
-    places: Places<'_, W, I::Number>,
+    places: Places<'_, I::Row>,
     spring: &Bend,
     de: &[I::F; 3],
     df: &[I::F; 3],
@@ -212,7 +198,7 @@ fn over_nodes<const W: usize, I: Isa<W>>(
 ) {
     let head = [-de[0], -de[1], -de[2]];
     let middle = [de[0] - df[0], de[1] - df[1], de[2] - df[2]];
-    gather::<W, 3, I, 3>(isa, places, &spring.stencil, &[head, middle, *df], out);
+    gather::<3, I, 3>(isa, places, &spring.stencil, &[head, middle, *df], out);
 }
 
 /// σ = atan(x)/x and γ = (1 + x²)(1 − σ (1 + x²))/4x² from x²; by their series near 0.

@@ -12,23 +12,23 @@ use crate::state::Block;
 
 /// Adds the elastic terms and the constraints of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+pub fn assemble<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     scheme: Scheme<I::F>,
 ) {
-    rod::<W, D, I>(isa, model, block, scheme);
+    rod::<D, I>(isa, model, block, scheme);
     for tie in &model.coordinates.ties {
-        constrain::<W, D, I>(isa, model, block, tie, scheme.dt);
+        constrain::<D, I>(isa, model, block, tie, scheme.dt);
     }
 }
 
 #[inline(always)]
-fn constrain<const W: usize, const D: usize, I: Isa<W>>(
+fn constrain<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     tie: &Tie,
     dt: f64,
 ) {
@@ -60,13 +60,6 @@ fn constrain<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn set<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-    a: usize,
-    b: usize,
-    value: I::F,
-) {
+fn set<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, a: usize, b: usize, value: I::F) {
     isa.store(value, &mut block.matrix[model.system.at(a.max(b), a.min(b))]);
 }

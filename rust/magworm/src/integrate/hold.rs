@@ -8,17 +8,17 @@
 //! Lanes may have been reset at different times. Where one is due, the block computes the wrenches of all its lanes, and each
 //! takes them or keeps its own; so the bits of a lane do not depend on when its neighbours were reset.
 
-use crate::lanes::{Isa, Number, Real};
+use crate::lanes::{Isa, Number, Real, Row};
 use crate::model::{Model, body_size};
 use crate::state::Block;
 
 /// Lanes that run and take new wrenches in this step.
 #[inline(always)]
-pub fn due<const W: usize, I: Isa<W>>(isa: I, block: &Block<W, I::Number>, interval: u64) -> I::M {
-    let mut since = [I::Number::default(); W];
-    for lane in 0..W {
+pub fn due<I: Isa>(isa: I, block: &Block<I::Row>, interval: u64) -> I::M {
+    let mut since = I::Row::zeros();
+    for lane in 0..I::Row::LANES {
         let steps = block.step_count[0][lane].f64() as u64;
-        since[lane] = I::Number::of((steps % interval) as f64);
+        since[lane] = Number::of((steps % interval) as f64);
     }
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     running & isa.load(&since).eq(isa.splat(0.0))
@@ -26,9 +26,9 @@ pub fn due<const W: usize, I: Isa<W>>(isa: I, block: &Block<W, I::Number>, inter
 
 /// Keeps the new wrench of a body magnet in the lanes that are due, and gives the others the one that they hold.
 #[inline(always)]
-pub fn hold<const W: usize, const D: usize, I: Isa<W>>(
+pub fn hold<const D: usize, I: Isa>(
     isa: I,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     body: usize,
     due: I::M,
     wrench: &mut [I::F; 6],

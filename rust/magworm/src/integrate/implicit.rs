@@ -18,11 +18,11 @@ use crate::state::Block;
 
 /// Adds the elastic terms of a step.
 #[inline(always)]
-pub fn assemble<const W: usize, const D: usize, I: Isa<W>>(
+pub fn assemble<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     scheme: Scheme<I::F>,
 ) {
-    rod::<W, D, I>(isa, model, block, scheme);
+    rod::<D, I>(isa, model, block, scheme);
 }

@@ -13,7 +13,7 @@ const WRENCH: usize = 6;
 
 /// Adds Δt m g to the right-hand side. Multipliers have no mass and rotations no weight.
 #[inline(always)]
-pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Block<W, I::Number>) {
+pub fn gravity<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
     let (masses, right) = (&*block.mass, &mut *block.right);
@@ -25,11 +25,7 @@ pub fn gravity<const W: usize, I: Isa<W>>(isa: I, model: &Model, block: &mut Blo
 
 /// Adds Δt times the magnetic wrench on every body magnet.
 #[inline(always)]
-pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let program = &model.program;
     if program.magnetics.is_none() && program.uniform_field.is_none() {
         return;
@@ -55,10 +51,10 @@ pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
             }
         }
         if let Some(due) = due {
-            hold::hold::<W, D, I>(isa, block, body, due, &mut wrench);
+            hold::hold::<D, I>(isa, block, body, due, &mut wrench);
         }
         if program.uniform_field.is_some() {
-            uniform_torque::<W, D, I>(isa, model, block, body, &mut wrench);
+            uniform_torque::<D, I>(isa, model, block, body, &mut wrench);
         }
         let dt = model.step_s;
         for k in 0..body_size(D) {
@@ -69,10 +65,10 @@ pub fn magnets<const W: usize, const D: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn uniform_torque<const W: usize, const D: usize, I: Isa<W>>(
+fn uniform_torque<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &Block<W, I::Number>,
+    block: &Block<I::Row>,
     body: usize,
     wrench: &mut [I::F; WRENCH],
 ) {
@@ -95,11 +91,11 @@ fn uniform_torque<const W: usize, const D: usize, I: Isa<W>>(
 
 /// (F_x, F_y, T_z) of all drive magnets.
 #[inline(always)]
-fn planar_wrench<const W: usize, I: Isa<W>>(
+fn planar_wrench<I: Isa>(
     isa: I,
     magnetics: &Magnetics,
     drive: &DriveModel,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     [body, dof]: [usize; 2],
     robot: I::F,
     total: &mut [I::F; WRENCH],
@@ -127,11 +123,11 @@ fn planar_wrench<const W: usize, I: Isa<W>>(
 /// Force and torque of all drive magnets, which stand turned about the vertical by the stage's yaw.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // a kernel: a struct of arguments would be copied
-fn spatial_wrench<const W: usize, I: Isa<W>>(
+fn spatial_wrench<I: Isa>(
     isa: I,
     magnetics: &Magnetics,
     drive: &DriveModel,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     [body, dof]: [usize; 2],
     robot: I::F,
     (sin, cos): (I::F, I::F),

@@ -19,11 +19,7 @@ pub use loads::{gravity, magnets};
 
 /// Begins matrix and right-hand side of a step: inertia alone.
 #[inline(always)]
-pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     model.system.clear(isa, &mut block.matrix);
     diagonal_inertia(isa, model, block);
     if D == 3 {
@@ -33,27 +29,19 @@ pub fn inertia<const W: usize, const D: usize, I: Isa<W>>(
 
 /// Adds the springs of the rod, and what else the integrator asks for.
 #[inline(always)]
-pub fn springs<const W: usize, const D: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+pub fn springs<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let scheme = scheme(isa, model, block);
     match model.scene.solver.integrator {
         Integrator::Newmark | Integrator::Euler => {
-            implicit::assemble::<W, D, I>(isa, model, block, scheme)
+            implicit::assemble::<D, I>(isa, model, block, scheme)
         }
-        Integrator::Explicit => explicit::assemble::<W, D, I>(isa, model, block, scheme),
+        Integrator::Explicit => explicit::assemble::<D, I>(isa, model, block, scheme),
     }
 }
 
 /// M on the left, M v on the right.
 #[inline(always)]
-fn diagonal_inertia<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn diagonal_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (count, matrix) = (model.coordinates.count, &mut *block.matrix);
     let (masses, speeds) = (&block.mass[..count], &block.v[..count]);
     let right = &mut block.right[..count];
@@ -66,11 +54,7 @@ fn diagonal_inertia<const W: usize, I: Isa<W>>(
 
 /// The same for the rotation of the magnets in space, whose inertia Σ I a aᵀ turns with their axes a.
 #[inline(always)]
-fn rotary_inertia<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<W, I::Number>,
-) {
+fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
         let axes = elastic::axes(isa, block, body);
         let first = dof + 3;
@@ -94,11 +78,7 @@ fn rotary_inertia<const W: usize, I: Isa<W>>(
 }
 
 #[inline(always)]
-fn scheme<const W: usize, I: Isa<W>>(
-    isa: I,
-    model: &Model,
-    block: &Block<W, I::Number>,
-) -> Scheme<I::F> {
+fn scheme<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> Scheme<I::F> {
     let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
     let damping_s = factor(Parameter::Damping) * model.scene.material.damping_time_s;
     let integrator = model.scene.solver.integrator;
@@ -107,13 +87,13 @@ fn scheme<const W: usize, I: Isa<W>>(
 
 /// Adds stretching, bending and twisting.
 #[inline(always)]
-fn rod<const W: usize, const D: usize, I: Isa<W>>(
+fn rod<const D: usize, I: Isa>(
     isa: I,
     model: &Model,
-    block: &mut Block<W, I::Number>,
+    block: &mut Block<I::Row>,
     scheme: Scheme<I::F>,
 ) {
-    elastic::stretch::<W, D, I>(isa, model, block, scheme);
+    elastic::stretch::<D, I>(isa, model, block, scheme);
     if D == 2 {
         elastic::bend(isa, model, block, scheme);
     } else {

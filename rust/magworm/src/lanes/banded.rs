@@ -96,26 +96,26 @@ impl Band {
     }
 
     /// Factors in place: strictly lower entries become L, diagonal entries 1/D.
-    pub fn factor<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[I::Number; W]]) {
+    pub fn factor<I: Isa>(&self, isa: I, matrix: &mut [I::Row]) {
         match self.half_bandwidth {
-            5 => vectorized!(isa, factor::<W, I, 5, 6>(isa, self.size, matrix)),
-            6 => vectorized!(isa, factor::<W, I, 6, 7>(isa, self.size, matrix)),
-            8 => vectorized!(isa, factor::<W, I, 8, 9>(isa, self.size, matrix)),
-            10 => vectorized!(isa, factor::<W, I, 10, 11>(isa, self.size, matrix)),
-            11 => vectorized!(isa, factor::<W, I, 11, 12>(isa, self.size, matrix)),
-            13 => vectorized!(isa, factor::<W, I, 13, 14>(isa, self.size, matrix)),
-            _ => vectorized!(isa, factor::<W, I, 16, 17>(isa, self.size, matrix)),
+            5 => vectorized!(isa, factor::<I, 5, 6>(isa, self.size, matrix)),
+            6 => vectorized!(isa, factor::<I, 6, 7>(isa, self.size, matrix)),
+            8 => vectorized!(isa, factor::<I, 8, 9>(isa, self.size, matrix)),
+            10 => vectorized!(isa, factor::<I, 10, 11>(isa, self.size, matrix)),
+            11 => vectorized!(isa, factor::<I, 11, 12>(isa, self.size, matrix)),
+            13 => vectorized!(isa, factor::<I, 13, 14>(isa, self.size, matrix)),
+            _ => vectorized!(isa, factor::<I, 16, 17>(isa, self.size, matrix)),
         }
     }
 
     /// Matrix times vector, from the entries of the lower half.
     #[inline(always)]
-    pub fn multiply<const W: usize, I: Isa<W>>(
+    pub fn multiply<I: Isa>(
         &self,
         isa: I,
-        matrix: &[[I::Number; W]],
-        vector: &[[I::Number; W]],
-        product: &mut [[I::Number; W]],
+        matrix: &[I::Row],
+        vector: &[I::Row],
+        product: &mut [I::Row],
     ) {
         let h = self.half_bandwidth;
         for row in 0..self.size {
@@ -139,42 +139,33 @@ impl Band {
     }
 
     /// Solves in place with a factored matrix.
-    pub fn solve<const W: usize, I: Isa<W>>(
-        &self,
-        isa: I,
-        factored: &[[I::Number; W]],
-        right: &mut [[I::Number; W]],
-    ) {
+    pub fn solve<I: Isa>(&self, isa: I, factored: &[I::Row], right: &mut [I::Row]) {
         match self.half_bandwidth {
-            5 => vectorized!(isa, solve::<W, I, 5, 6>(isa, factored, right)),
-            6 => vectorized!(isa, solve::<W, I, 6, 7>(isa, factored, right)),
-            8 => vectorized!(isa, solve::<W, I, 8, 9>(isa, factored, right)),
-            10 => vectorized!(isa, solve::<W, I, 10, 11>(isa, factored, right)),
-            11 => vectorized!(isa, solve::<W, I, 11, 12>(isa, factored, right)),
-            13 => vectorized!(isa, solve::<W, I, 13, 14>(isa, factored, right)),
-            _ => vectorized!(isa, solve::<W, I, 16, 17>(isa, factored, right)),
+            5 => vectorized!(isa, solve::<I, 5, 6>(isa, factored, right)),
+            6 => vectorized!(isa, solve::<I, 6, 7>(isa, factored, right)),
+            8 => vectorized!(isa, solve::<I, 8, 9>(isa, factored, right)),
+            10 => vectorized!(isa, solve::<I, 10, 11>(isa, factored, right)),
+            11 => vectorized!(isa, solve::<I, 11, 12>(isa, factored, right)),
+            13 => vectorized!(isa, solve::<I, 13, 14>(isa, factored, right)),
+            _ => vectorized!(isa, solve::<I, 16, 17>(isa, factored, right)),
         }
     }
 }
 
 /// Row by row: u = L D of the row's entries from the rows above, then L = u / D.
 #[inline(always)]
-fn factor<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
-    isa: I,
-    size: usize,
-    matrix: &mut [[I::Number; W]],
-) {
+fn factor<I: Isa, const H: usize, const ROW: usize>(isa: I, size: usize, matrix: &mut [I::Row]) {
     let (rows, _) = matrix.as_chunks_mut::<ROW>();
     for row in H..size + H {
-        factor_row::<W, I, H, ROW>(isa, rows, row, 0);
+        factor_row::<I, H, ROW>(isa, rows, row, 0);
     }
 }
 
 /// One row, given those above it, whose entries begin in column `first`.
 #[inline(always)]
-pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+pub(super) fn factor_row<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
-    rows: &mut [[[I::Number; W]; ROW]],
+    rows: &mut [[I::Row; ROW]],
     row: usize,
     first: usize,
 ) {
@@ -205,10 +196,10 @@ pub(super) fn factor_row<const W: usize, I: Isa<W>, const H: usize, const ROW: u
 
 /// Forward and backward substitution; the last H unknowns travel along in registers.
 #[inline(always)]
-fn solve<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+fn solve<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
-    factored: &[[I::Number; W]],
-    right: &mut [[I::Number; W]],
+    factored: &[I::Row],
+    right: &mut [I::Row],
 ) {
     let (rows, _) = factored.as_chunks::<ROW>();
     let mut known = [isa.splat(0.0); H];

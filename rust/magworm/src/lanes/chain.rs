@@ -179,7 +179,7 @@ impl Chain {
     }
 
     /// The entries of the kept unknowns.
-    pub fn kept_entries<'a, const W: usize, N>(&self, matrix: &'a [[N; W]]) -> &'a [[N; W]] {
+    pub fn kept_entries<'a, R>(&self, matrix: &'a [R]) -> &'a [R] {
         &matrix[self.start_of_kept()..]
     }
 
@@ -193,7 +193,7 @@ impl Chain {
 
     /// Sets all entries to zero that elimination leaves otherwise; the rest, two fifths for a worm, are zeros from the start.
     #[inline(always)]
-    pub fn clear<const W: usize, I: Isa<W>>(&self, isa: I, matrix: &mut [[I::Number; W]]) {
+    pub fn clear<I: Isa>(&self, isa: I, matrix: &mut [I::Row]) {
         let (soft, kept) = matrix.split_at_mut(self.start_of_kept());
         zero(isa, &mut kept[self.kept.inner()]);
         if self.segments.is_empty() {
@@ -209,12 +209,7 @@ impl Chain {
 
     /// Eliminates the soft unknowns in place: what is left of `matrix` and `right` at the kept unknowns is their own
     /// system.
-    pub fn condense<const W: usize, I: Isa<W>>(
-        &self,
-        isa: I,
-        matrix: &mut [[I::Number; W]],
-        right: &mut [[I::Number; W]],
-    ) {
+    pub fn condense<I: Isa>(&self, isa: I, matrix: &mut [I::Row], right: &mut [I::Row]) {
         let (soft, kept) = matrix.split_at_mut(self.start_of_kept());
         let (band, border) = soft.split_at_mut(self.start_of_border());
         let mut parts = Parts { chain: self, band, border, kept };
@@ -227,19 +222,19 @@ impl Chain {
 
     /// Solutions at the soft unknowns, into `solution`, which holds those at the kept ones; `matrix` and `right` are
     /// those that [`Self::condense`] left.
-    pub fn recover<const W: usize, I: Isa<W>>(
+    pub fn recover<I: Isa>(
         &self,
         isa: I,
-        matrix: &[[I::Number; W]],
-        right: &[[I::Number; W]],
-        solution: &mut [[I::Number; W]],
+        matrix: &[I::Row],
+        right: &[I::Row],
+        solution: &mut [I::Row],
     ) {
         let (band, border) = matrix[..self.start_of_kept()].split_at(self.start_of_border());
         for segment in &self.segments {
             dispatch!(self, H, ROW, K => {
                 vectorized!(
                     isa,
-                    recover::<W, I, H, ROW, K>(isa, segment, band, border, right, solution)
+                    recover::<I, H, ROW, K>(isa, segment, band, border, right, solution)
                 );
             });
         }
@@ -247,7 +242,7 @@ impl Chain {
 }
 
 #[inline(always)]
-fn zero<const W: usize, I: Isa<W>>(isa: I, rows: &mut [[I::Number; W]]) {
+fn zero<I: Isa>(isa: I, rows: &mut [I::Row]) {
     for row in rows {
         isa.store(isa.splat(0.0), row);
     }

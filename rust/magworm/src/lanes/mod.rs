@@ -1,7 +1,7 @@
-//! Lanes: W environments side by side in one vector.
+//! Lanes: environments side by side in one vector.
 //!
-//! Kernels are written once against [`Real`] (a vector of numbers), [`Mask`] and [`Isa`] (an
-//! instruction set of a given width) and run as plain `f64` ([`Scalar`], one lane) or as eight
+//! Kernels are written once against [`Real`] (a vector of numbers), [`Row`] (the same in memory), [`Mask`] and [`Isa`]
+//! (an instruction set of a given width) and run as plain `f64` ([`Scalar`], one lane) or as eight
 //! lanes ([`Wide`]) on whatever instruction set the processor offers at run time. In single precision
 //! they run as plain `f32` ([`ScalarSingle`]) or as sixteen lanes ([`WideSingle`]): as many bytes, twice the robots.
 //!
@@ -16,12 +16,14 @@ pub mod banded;
 pub mod chain;
 pub mod math;
 mod number;
+mod row;
 mod scalar;
 mod single;
 pub mod unsymmetric;
 mod wide;
 
 pub use number::Number;
+pub use row::Row;
 pub use scalar::{Scalar, ScalarSingle};
 pub use single::Single;
 pub use wide::{
@@ -114,21 +116,21 @@ pub trait Real:
     }
 }
 
-/// An instruction set with vectors of `W` lanes.
-pub trait Isa<const W: usize>: Copy + Send + Sync {
-    /// What rows hold.
-    type Number: Number;
+/// An instruction set with vectors of as many lanes as its rows have.
+pub trait Isa: Copy + Send + Sync {
+    /// What a vector is in memory.
+    type Row: Row;
     /// The vector of numbers.
-    type F: Real<Mask = Self::M, Number = Self::Number>;
+    type F: Real<Mask = Self::M, Number = <Self::Row as Row>::Number>;
     /// The vector of truth values.
     type M: Mask;
 
     /// The constant `value` in every lane.
     fn splat(self, value: f64) -> Self::F;
     /// Reads a row, one number per lane.
-    fn load(self, row: &[Self::Number; W]) -> Self::F;
+    fn load(self, row: &Self::Row) -> Self::F;
     /// Writes a row, one number per lane.
-    fn store(self, value: Self::F, row: &mut [Self::Number; W]);
+    fn store(self, value: Self::F, row: &mut Self::Row);
     /// Runs `f` compiled for this instruction set.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
 }

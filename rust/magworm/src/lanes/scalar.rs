@@ -62,8 +62,8 @@ impl Real for f64 {
     }
 }
 
-impl Isa<1> for Scalar {
-    type Number = f64;
+impl Isa for Scalar {
+    type Row = [f64; 1];
     type F = f64;
     type M = bool;
 
@@ -134,8 +134,8 @@ impl Real for Single<f32> {
     }
 }
 
-impl Isa<1> for ScalarSingle {
-    type Number = f32;
+impl Isa for ScalarSingle {
+    type Row = [f32; 1];
     type F = Single<f32>;
     type M = bool;
 

@@ -4,8 +4,8 @@
 //! [`super::banded`]. A row is eliminated in registers and the right-hand side along with it, so the lower factor is
 //! never stored: each matrix is solved for one right-hand side.
 
-use super::Isa;
 use super::banded::{Band, GHOSTS, unrolled, vectorized};
+use super::{Isa, Row};
 
 /// Numbers in a row of half-bandwidth h.
 pub const fn row_length(half_bandwidth: usize) -> usize {
@@ -50,24 +50,19 @@ macro_rules! dispatch {
 }
 
 /// Writes a symmetric matrix, stored by its lower half, in full.
-pub fn expand<const W: usize, I: Isa<W>>(
-    isa: I,
-    band: &Band,
-    lower: &[[I::Number; W]],
-    full: &mut [[I::Number; W]],
-) {
+pub fn expand<I: Isa>(isa: I, band: &Band, lower: &[I::Row], full: &mut [I::Row]) {
     let size = band.size();
     dispatch!(band, H, ROW => {
-        vectorized!(isa, expand_rows::<W, I, H, ROW>(isa, size, lower, full));
+        vectorized!(isa, expand_rows::<I, H, ROW>(isa, size, lower, full));
     });
 }
 
 #[inline(always)]
-fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+fn expand_rows<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    lower: &[[I::Number; W]],
-    full: &mut [[I::Number; W]],
+    lower: &[I::Row],
+    full: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for row in H..size + H {
@@ -83,73 +78,60 @@ fn expand_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
     }
     // Beyond the last column an elimination may have left something that is not a number.
     for (beyond, row) in rows[size..size + H].iter_mut().enumerate() {
-        row[ROW - 1 - beyond..].fill([I::Number::default(); W]);
+        row[ROW - 1 - beyond..].fill(I::Row::zeros());
     }
 }
 
 /// Solves in place: `right` has ghost rows, `full` is used up. A `body` of so many unknowns only meets itself and its
 /// neighbours, which leaves half of the work; 0 where there is no such order.
-pub fn solve<const W: usize, I: Isa<W>>(
-    isa: I,
-    band: &Band,
-    body: usize,
-    full: &mut [[I::Number; W]],
-    right: &mut [[I::Number; W]],
-) {
+pub fn solve<I: Isa>(isa: I, band: &Band, body: usize, full: &mut [I::Row], right: &mut [I::Row]) {
     let size = band.size();
     match (band.half_bandwidth(), body) {
-        (5, 3) => vectorized!(isa, solve_bodies::<W, I, 5, 11, 3, 9>(isa, size, full, right)),
-        (11, 6) => vectorized!(isa, solve_bodies::<W, I, 11, 23, 6, 18>(isa, size, full, right)),
+        (5, 3) => vectorized!(isa, solve_bodies::<I, 5, 11, 3, 9>(isa, size, full, right)),
+        (11, 6) => vectorized!(isa, solve_bodies::<I, 11, 23, 6, 18>(isa, size, full, right)),
         _ => dispatch!(band, H, ROW => {
-            vectorized!(isa, solve_rows::<W, I, H, ROW>(isa, size, full, right));
+            vectorized!(isa, solve_rows::<I, H, ROW>(isa, size, full, right));
         }),
     }
 }
 
 #[inline(always)]
-fn solve_rows<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+fn solve_rows<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    full: &mut [[I::Number; W]],
-    right: &mut [[I::Number; W]],
+    full: &mut [I::Row],
+    right: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for row in H..size + H {
-        eliminate::<W, I, H, ROW>(isa, rows, right, row);
+        eliminate::<I, H, ROW>(isa, rows, right, row);
     }
-    substitute::<W, I, H, ROW>(isa, size, full, right);
+    substitute::<I, H, ROW>(isa, size, full, right);
 }
 
 /// B: unknowns of a body, C: those of three.
 #[inline(always)]
-fn solve_bodies<
-    const W: usize,
-    I: Isa<W>,
-    const H: usize,
-    const ROW: usize,
-    const B: usize,
-    const C: usize,
->(
+fn solve_bodies<I: Isa, const H: usize, const ROW: usize, const B: usize, const C: usize>(
     isa: I,
     size: usize,
-    full: &mut [[I::Number; W]],
-    right: &mut [[I::Number; W]],
+    full: &mut [I::Row],
+    right: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for body in 0..size / B {
         for slot in 0..B {
-            eliminate_of_body::<W, I, H, ROW, B, C>(isa, rows, right, H + B * body, slot);
+            eliminate_of_body::<I, H, ROW, B, C>(isa, rows, right, H + B * body, slot);
         }
     }
-    substitute::<W, I, H, ROW>(isa, size, full, right);
+    substitute::<I, H, ROW>(isa, size, full, right);
 }
 
 /// One row: what stands left of the diagonal is eliminated by the rows above; the diagonal becomes 1/pivot.
 #[inline(always)]
-fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+fn eliminate<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
-    rows: &mut [[[I::Number; W]; ROW]],
-    right: &mut [[I::Number; W]],
+    rows: &mut [[I::Row; ROW]],
+    right: &mut [I::Row],
     row: usize,
 ) {
     let one = isa.splat(1.0);
@@ -180,17 +162,10 @@ fn eliminate<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
 /// behind it, and so do the rows that eliminate it: 1,060 products for three bodies of six in place of 2,180. Columns are
 /// numbered through these three bodies: a compiler then knows all of them but the diagonal.
 #[inline(always)]
-fn eliminate_of_body<
-    const W: usize,
-    I: Isa<W>,
-    const H: usize,
-    const ROW: usize,
-    const B: usize,
-    const C: usize,
->(
+fn eliminate_of_body<I: Isa, const H: usize, const ROW: usize, const B: usize, const C: usize>(
     isa: I,
-    rows: &mut [[[I::Number; W]; ROW]],
-    right: &mut [[I::Number; W]],
+    rows: &mut [[I::Row; ROW]],
+    right: &mut [I::Row],
     first: usize,
     slot: usize,
 ) {
@@ -226,11 +201,11 @@ fn eliminate_of_body<
 }
 
 #[inline(always)]
-fn substitute<const W: usize, I: Isa<W>, const H: usize, const ROW: usize>(
+fn substitute<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
-    full: &[[I::Number; W]],
-    right: &mut [[I::Number; W]],
+    full: &[I::Row],
+    right: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks::<ROW>();
     for row in (H..size + H).rev() {

@@ -1,6 +1,6 @@
 //! Eight lanes of `f64`, or sixteen of `f32`, on the instruction set found at run time. The only file that names the SIMD crate.
 
-use super::{Isa, Mask, Number, Real, Single};
+use super::{Isa, Mask, Real, Row, Single};
 use fearless_simd::{
     Bytes, Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x16, f64x8, mask32x16,
     mask64x8, u32x16, u64x8,
@@ -20,12 +20,12 @@ pub const WIDE_SINGLE: usize = 16;
 #[derive(Clone, Copy, Debug)]
 pub struct WideSingle<S: Simd>(S);
 
-/// Work on W lanes of numbers N that is generic over the instruction set, for [`run_wide`].
-pub trait WideTask<const W: usize = WIDE, N: Number = f64> {
+/// Work on rows R that is generic over the instruction set, for [`run_wide`].
+pub trait WideTask<R: Row = [f64; WIDE]> {
     /// What the work returns.
     type Output;
     /// Does the work with the instruction set `isa`.
-    fn run<I: Isa<W, Number = N>>(self, isa: I) -> Self::Output;
+    fn run<I: Isa<Row = R>>(self, isa: I) -> Self::Output;
 }
 
 /// An instruction set that this processor has. Results do not depend on it.
@@ -88,7 +88,7 @@ pub fn run_wide_on<T: WideTask>(set: InstructionSet, task: T) -> T::Output {
 
 /// Runs `task` in single precision on one of the instruction sets that this processor has.
 #[inline]
-pub fn run_single_on<T: WideTask<WIDE_SINGLE, f32>>(set: InstructionSet, task: T) -> T::Output {
+pub fn run_single_on<T: WideTask<[f32; WIDE_SINGLE]>>(set: InstructionSet, task: T) -> T::Output {
     dispatch!(set.0, simd => task.run(WideSingle(simd)))
 }
 
@@ -149,8 +149,8 @@ impl<S: Simd> Real for f64x8<S> {
     }
 }
 
-impl<S: Simd> Isa<WIDE> for Wide<S> {
-    type Number = f64;
+impl<S: Simd> Isa for Wide<S> {
+    type Row = [f64; WIDE];
     type F = f64x8<S>;
     type M = mask64x8<S>;
 
@@ -229,8 +229,8 @@ impl<S: Simd> Real for Single<f32x16<S>> {
     }
 }
 
-impl<S: Simd> Isa<WIDE_SINGLE> for WideSingle<S> {
-    type Number = f32;
+impl<S: Simd> Isa for WideSingle<S> {
+    type Row = [f32; WIDE_SINGLE];
     type F = Single<f32x16<S>>;
     type M = mask32x16<S>;
 
@@ -262,7 +262,7 @@ mod tests {
     struct Exponents;
     impl WideTask for Exponents {
         type Output = ([f64; WIDE], [f64; WIDE]);
-        fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) -> Self::Output {
+        fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) -> Self::Output {
             let (m, e) = isa.load(&SAMPLES).mantissa_exponent();
             let mut out = ([0.0; WIDE], [0.0; WIDE]);
             isa.store(m, &mut out.0);

@@ -219,7 +219,7 @@ proptest! {
 struct Wrenches<'a>(&'a [[f64; WIDE]; 4]);
 impl WideTask for Wrenches<'_> {
     type Output = [[f64; WIDE]; 18];
-    fn run<I: Isa<WIDE, Number = f64>>(self, isa: I) -> Self::Output {
+    fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) -> Self::Output {
         let mut rows = [[0.0; WIDE]; 18];
         isa.vectorize(
             #[inline(always)]

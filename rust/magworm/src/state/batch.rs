@@ -5,7 +5,7 @@ use super::control::{ControlRows, Steps, control_block};
 use super::pool::Pool;
 use super::rollout::{Plan, RolloutOutput, rollout};
 use super::view::View;
-use crate::lanes::{InstructionSet, Number, WIDE, WIDE_SINGLE};
+use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
@@ -37,10 +37,10 @@ pub struct Batch {
 
 #[derive(Debug)]
 enum Blocks {
-    Wide(Vec<Block<WIDE>>),
-    Scalar(Vec<Block<1>>),
-    WideSingle(Vec<Block<WIDE_SINGLE, f32>>),
-    ScalarSingle(Vec<Block<1, f32>>),
+    Wide(Vec<Block<[f64; WIDE]>>),
+    Scalar(Vec<Block<[f64; 1]>>),
+    WideSingle(Vec<Block<[f32; WIDE_SINGLE]>>),
+    ScalarSingle(Vec<Block<[f32; 1]>>),
 }
 
 /// Runs `$body` with `$blocks` bound to the blocks of any width and precision.
@@ -225,22 +225,16 @@ impl Batch {
     }
 }
 
-fn new_blocks<const W: usize, N: Number>(model: &Model, count: usize) -> Vec<Block<W, N>> {
-    (0..count.div_ceil(W)).map(|_| Block::new(model)).collect()
+fn new_blocks<R: Row>(model: &Model, count: usize) -> Vec<Block<R>> {
+    (0..count.div_ceil(R::LANES)).map(|_| Block::new(model)).collect()
 }
 
-fn place<const W: usize, N: Number>(
-    blocks: &[Block<W, N>],
-    environment: usize,
-) -> (&Block<W, N>, usize) {
-    (&blocks[environment / W], environment % W)
+fn place<R: Row>(blocks: &[Block<R>], environment: usize) -> (&Block<R>, usize) {
+    (&blocks[environment / R::LANES], environment % R::LANES)
 }
 
-fn place_mut<const W: usize, N: Number>(
-    blocks: &mut [Block<W, N>],
-    environment: usize,
-) -> (&mut Block<W, N>, usize) {
-    (&mut blocks[environment / W], environment % W)
+fn place_mut<R: Row>(blocks: &mut [Block<R>], environment: usize) -> (&mut Block<R>, usize) {
+    (&mut blocks[environment / R::LANES], environment % R::LANES)
 }
 
 fn for_each<B: Send>(
@@ -255,33 +249,36 @@ fn for_each<B: Send>(
 }
 
 /// Blocks with the rows of the output that belong to each.
-fn control_step<const W: usize, N: Number>(
+fn control_step<R: Row>(
     model: &Model,
-    blocks: &mut [Block<W, N>],
+    blocks: &mut [Block<R>],
     pool: Option<&rayon::ThreadPool>,
     actions: &[f64],
     output: StepOutput<'_>,
 ) where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let width = observe::size(model);
-    let work = |first: usize, block: &mut Block<W, N>, rows: ControlRows<'_>| {
+    let work = |first: usize, block: &mut Block<R>, rows: ControlRows<'_>| {
         control_block(model, block, first, actions, rows);
     };
     match pool {
         None => {
-            let rows = output.observation.chunks_mut(W * width);
-            let rows = rows.zip(output.progress_m.chunks_mut(W)).zip(output.status.chunks_mut(W));
+            let rows = output.observation.chunks_mut(R::LANES * width);
+            let rows = rows
+                .zip(output.progress_m.chunks_mut(R::LANES))
+                .zip(output.status.chunks_mut(R::LANES));
             for (index, (block, rows)) in blocks.iter_mut().zip(rows).enumerate() {
-                work(index * W, block, ControlRows::new(rows));
+                work(index * R::LANES, block, ControlRows::new(rows));
             }
         }
         Some(pool) => pool.install(|| {
-            let rows = output.observation.par_chunks_mut(W * width);
-            let rows =
-                rows.zip(output.progress_m.par_chunks_mut(W)).zip(output.status.par_chunks_mut(W));
+            let rows = output.observation.par_chunks_mut(R::LANES * width);
+            let rows = rows
+                .zip(output.progress_m.par_chunks_mut(R::LANES))
+                .zip(output.status.par_chunks_mut(R::LANES));
             blocks.par_chunks_mut(1).zip(rows).enumerate().for_each(|(index, (block, rows))| {
-                work(index * W, &mut block[0], ControlRows::new(rows));
+                work(index * R::LANES, &mut block[0], ControlRows::new(rows));
             });
         }),
     }

@@ -1,10 +1,10 @@
-//! W environments of one model, one per lane.
+//! Environments of one model, one per lane.
 
 use super::rows::Rows;
 use crate::contact::Workspace;
 use crate::drive::stage_axes;
 use crate::integrate::held_rows;
-use crate::lanes::Number;
+use crate::lanes::Row;
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -71,83 +71,85 @@ impl Counters {
     }
 }
 
-/// The state of W environments and the workspace of their step.
+/// The state of as many environments as a row has lanes, and the workspace of their step.
 #[derive(Clone, Debug)]
-pub struct Block<const W: usize, N: Number = f64> {
+pub struct Block<R: Row> {
     // State. Every row is one number per lane; together with `status` this is a snapshot.
     /// Unknowns [m, rad], shape [unknowns].
-    pub q: Rows<W, N>,
+    pub q: Rows<R>,
     /// Their velocities [m/s, rad/s]; multipliers hold impulses [N·s], shape [unknowns].
-    pub v: Rows<W, N>,
+    pub v: Rows<R>,
     /// What the springs take for the velocities at the start of a step [m/s, rad/s], see [`crate::elastic::lag`],
     /// shape [unknowns].
-    pub lagged: Rows<W, N>,
+    pub lagged: Rows<R>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].
-    pub normal: Rows<W, N>,
+    pub normal: Rows<R>,
     /// What the spring of each pad holds along x and in space along z [N·s], shape [contacts × (D − 1)]. Friction
     /// differs from it by what the damper held in the last step.
-    pub pad: Rows<W, N>,
+    pub pad: Rows<R>,
     /// State of each contact, see [`crate::contact::Mode`], shape [contacts].
-    pub mode: Rows<W, N>,
+    pub mode: Rows<R>,
     /// Stage x, y, in space also z [m] and yaw [rad], then their velocities, shape [2 × axes].
-    pub stage: Rows<W, N>,
+    pub stage: Rows<R>,
     /// Targets of these axes, then the speed limit [m/s], shape [axes + 1].
-    pub target: Rows<W, N>,
+    pub target: Rows<R>,
     /// Last action, shape [action].
-    pub action: Rows<W, N>,
+    pub action: Rows<R>,
     /// Solver steps since the reset, shape [1].
-    pub step_count: Rows<W, N>,
+    pub step_count: Rows<R>,
     /// Factors of the scene's parameters in force, in the order of [`Model::PARAMETERS`].
-    pub factors: Rows<W, N>,
+    pub factors: Rows<R>,
     /// 1 where a magnet is in, 0 where it is out, shape [magnets].
-    pub present: Rows<W, N>,
+    pub present: Rows<R>,
     /// Positions of the nodes held in place [m], shape [fixed nodes × D].
-    pub held: Rows<W, N>,
+    pub held: Rows<R>,
     /// In space up direction and tangent of each element, shape [elements × 6].
-    pub director: Rows<W, N>,
+    pub director: Rows<R>,
     /// In space twist of each bending node [rad], beyond ±π where it has gone there, shape [bending nodes].
-    pub twist: Rows<W, N>,
+    pub twist: Rows<R>,
     /// Force [N] and torque [N·m] of the drive on each body magnet where they act for several steps, see
     /// [`crate::model::Magnetics::interval`], shape [magnets × 3], in space [magnets × 6]; else none.
-    pub wrench: Rows<W, N>,
-    /// Status of each environment.
-    pub status: [Status; W],
+    pub wrench: Rows<R>,
+    /// Status of each environment, shape [lanes].
+    pub status: Box<[Status]>,
 
     // Derived from the factors and the magnets present, by reset.
     /// Mass of each unknown [kg, kg·m²], shape [unknowns].
-    pub mass: Rows<W, N>,
+    pub mass: Rows<R>,
     /// Remanence of each body magnet along its up direction [T], 0 where it is out, shape [magnets].
-    pub remanence: Rows<W, N>,
+    pub remanence: Rows<R>,
 
     // Workspace.
     /// 1 where the lane runs, 0 where it stands still, shape [1].
-    pub running: Rows<W, N>,
+    pub running: Rows<R>,
     /// Node positions [m], shape [nodes × D].
-    pub node: Rows<W, N>,
+    pub node: Rows<R>,
     /// Unit tangents, shape [elements × D].
-    pub tangent: Rows<W, N>,
+    pub tangent: Rows<R>,
     /// Lengths [m], shape [elements].
-    pub length: Rows<W, N>,
+    pub length: Rows<R>,
     /// Inverse lengths [1/m], shape [elements].
-    pub inverse_length: Rows<W, N>,
+    pub inverse_length: Rows<R>,
     /// In space side direction of each element, shape [elements × 3].
-    pub side: Rows<W, N>,
+    pub side: Rows<R>,
     /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
     /// shape [magnets × 9].
-    pub frame: Rows<W, N>,
+    pub frame: Rows<R>,
     /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
-    pub matrix: Rows<W, N>,
+    pub matrix: Rows<R>,
     /// Right-hand side [N·s], shape [unknowns].
-    pub right: Rows<W, N>,
+    pub right: Rows<R>,
     /// Velocities at the end of this step, shape [unknowns].
-    pub next: Rows<W, N>,
+    pub next: Rows<R>,
+    /// The robot seen from above when a control step began, see [`Self::robot_pose`], shape [lanes].
+    pub robot_before: Box<[[f64; 3]]>,
     /// The contact solve.
-    pub contact: Workspace<W, N>,
+    pub contact: Workspace<R>,
     /// Work done.
     pub counters: Counters,
 }
 
-impl<const W: usize, N: Number> Block<W, N> {
+impl<R: Row> Block<R> {
     /// A block whose lanes are unused until they are reset.
     pub fn new(model: &Model) -> Self {
         let unknowns = model.coordinates.count;
@@ -173,7 +175,7 @@ impl<const W: usize, N: Number> Block<W, N> {
             director: in_space(6 * elements),
             twist: in_space(model.bend.len()),
             wrench: zeros(held_rows(model)),
-            status: [Status::Unused; W],
+            status: vec![Status::Unused; R::LANES].into(),
             mass: zeros(unknowns),
             remanence: zeros(magnets),
             running: zeros(1),
@@ -186,15 +188,16 @@ impl<const W: usize, N: Number> Block<W, N> {
             matrix: zeros(model.system.entries()),
             right: zeros(unknowns),
             next: zeros(unknowns),
+            robot_before: vec![[0.0; 3]; R::LANES].into(),
             contact: Workspace::new(model),
             counters: Counters::default(),
         };
-        (0..W).for_each(|lane| crate::reset::rest(model, &mut this, lane));
+        (0..R::LANES).for_each(|lane| crate::reset::rest(model, &mut this, lane));
         this
     }
 
     /// The rows that change in time, in the order of a snapshot.
-    pub fn state_rows(&self) -> [&Rows<W, N>; 16] {
+    pub fn state_rows(&self) -> [&Rows<R>; 16] {
         [
             &self.q,
             &self.v,
@@ -216,7 +219,7 @@ impl<const W: usize, N: Number> Block<W, N> {
     }
 
     /// The rows of [`Self::state_rows`], to be written.
-    pub fn state_rows_mut(&mut self) -> [&mut Rows<W, N>; 16] {
+    pub fn state_rows_mut(&mut self) -> [&mut Rows<R>; 16] {
         [
             &mut self.q,
             &mut self.v,

@@ -3,7 +3,7 @@
 use super::block::{Block, Status};
 use crate::lanes::math::sin_cos;
 use crate::lanes::{
-    InstructionSet, Isa, Number, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
+    InstructionSet, Isa, Row, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
     run_wide_on,
 };
 use crate::model::{Model, Phase};
@@ -20,7 +20,7 @@ pub trait Steps: Send {
 
 macro_rules! one_lane {
     ($number:ty, $isa:expr) => {
-        impl Steps for Block<1, $number> {
+        impl Steps for Block<[$number; 1]> {
             fn advance_on(&mut self, _: InstructionSet, model: &Model, steps: u32) {
                 advance($isa, model, self, steps);
             }
@@ -33,13 +33,13 @@ macro_rules! one_lane {
 
 macro_rules! many_lanes {
     ($lanes:ident, $number:ty, $run_on:ident) => {
-        impl Steps for Block<$lanes, $number> {
+        impl Steps for Block<[$number; $lanes]> {
             fn advance_on(&mut self, set: InstructionSet, model: &Model, steps: u32) {
-                struct Task<'a>(&'a Model, &'a mut Block<$lanes, $number>, u32);
-                impl WideTask<$lanes, $number> for Task<'_> {
+                struct Task<'a>(&'a Model, &'a mut Block<[$number; $lanes]>, u32);
+                impl WideTask<[$number; $lanes]> for Task<'_> {
                     type Output = ();
                     #[inline(always)]
-                    fn run<I: Isa<$lanes, Number = $number>>(self, isa: I) {
+                    fn run<I: Isa<Row = [$number; $lanes]>>(self, isa: I) {
                         advance(isa, self.0, self.1, self.2);
                     }
                 }
@@ -47,11 +47,11 @@ macro_rules! many_lanes {
             }
 
             fn run_phase_on(&mut self, set: InstructionSet, model: &Model, phase: Phase) {
-                struct Task<'a>(&'a Model, &'a mut Block<$lanes, $number>, Phase);
-                impl WideTask<$lanes, $number> for Task<'_> {
+                struct Task<'a>(&'a Model, &'a mut Block<[$number; $lanes]>, Phase);
+                impl WideTask<[$number; $lanes]> for Task<'_> {
                     type Output = ();
                     #[inline(always)]
-                    fn run<I: Isa<$lanes, Number = $number>>(self, isa: I) {
+                    fn run<I: Isa<Row = [$number; $lanes]>>(self, isa: I) {
                         run_phase(isa, self.0, self.1, self.2);
                     }
                 }
@@ -92,14 +92,14 @@ impl<'a> ControlRows<'a> {
 }
 
 /// One control step of a block whose first environment is `first`, see [`super::Batch::step`].
-pub(super) fn control_block<const W: usize, N: Number>(
+pub(super) fn control_block<R: Row>(
     model: &Model,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     first: usize,
     actions: &[f64],
     rows: ControlRows<'_>,
 ) where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let count = rows.status.len();
     if let Some(drive) = model.program.drive.as_ref().filter(|d| d.is_controlled()) {
@@ -111,11 +111,13 @@ pub(super) fn control_block<const W: usize, N: Number>(
             }
         }
     }
-    let before: [[f64; 3]; W] = std::array::from_fn(|lane| block.robot_pose(model, lane));
+    for lane in 0..count {
+        block.robot_before[lane] = block.robot_pose(model, lane);
+    }
     block.advance_on(InstructionSet::widest(), model, model.steps_per_control);
     let width = observe::size(model);
     for lane in 0..count {
-        rows.progress_m[lane] = progress_m(before[lane], block.robot_pose(model, lane));
+        rows.progress_m[lane] = progress_m(block.robot_before[lane], block.robot_pose(model, lane));
         rows.status[lane] = block.status[lane] as u8;
     }
     for (lane, row) in rows.observation.chunks_mut(width).enumerate() {

@@ -1,4 +1,4 @@
-//! The state of W environments side by side, and batches of them.
+//! The state of environments side by side, and batches of them.
 
 mod batch;
 mod block;

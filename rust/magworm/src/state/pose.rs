@@ -1,8 +1,8 @@
 //! Where the parts of a robot are, one lane at a time. In the plane z and all rotations but about z are 0.
 
 use super::block::Block;
-use crate::lanes::Number;
 use crate::lanes::math::{atan2, sin_cos};
+use crate::lanes::{Number, Row};
 use crate::model::{Anchor, Model};
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -39,7 +39,7 @@ pub struct Twist {
     pub angular_rad_s: Vector3<f64>,
 }
 
-impl<const W: usize, N: Number> Block<W, N> {
+impl<R: Row> Block<R> {
     /// Position [m] of a node in one lane.
     pub fn node_position(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
         let axes = model.dimensions();
@@ -141,7 +141,7 @@ impl<const W: usize, N: Number> Block<W, N> {
         self.vector(&self.director, 6 * model.mesh.magnets[body].element + 3, 3, lane)
     }
 
-    fn vector(&self, rows: &[[N; W]], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
+    fn vector(&self, rows: &[R], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
         let component = |k: usize| if k < axes { rows[first + k][lane].f64() } else { 0.0 };
         Vector3::new(component(0), component(1), component(2))
     }

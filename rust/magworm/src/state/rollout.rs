@@ -6,7 +6,7 @@
 use super::block::Block;
 use super::control::{ControlRows, Steps, control_block};
 use super::view::View;
-use crate::lanes::Number;
+use crate::lanes::Row;
 use crate::model::Model;
 use rayon::ThreadPool;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -51,9 +51,9 @@ struct Instant<'a> {
 }
 
 /// See [`super::Batch::rollout`].
-pub(super) fn rollout<const W: usize, N: Number>(
+pub(super) fn rollout<R: Row>(
     model: &Model,
-    blocks: &mut [Block<W, N>],
+    blocks: &mut [Block<R>],
     count: usize,
     pool: Option<&ThreadPool>,
     plan: Plan<'_>,
@@ -61,12 +61,12 @@ pub(super) fn rollout<const W: usize, N: Number>(
     interrupted: &mut dyn FnMut() -> bool,
 ) -> bool
 where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let stop = AtomicBool::new(false);
     let instants = by_block(blocks, count, plan.control_steps, output);
-    let work = |(index, (block, instants)): (usize, (&mut [Block<W, N>], Vec<Instant<'_>>))| {
-        trajectory(model, &mut block[0], index * W, plan, instants, &stop);
+    let work = |(index, (block, instants)): (usize, (&mut [Block<R>], Vec<Instant<'_>>))| {
+        trajectory(model, &mut block[0], index * R::LANES, plan, instants, &stop);
     };
     watched(pool, &stop, interrupted, || match pool {
         None => blocks.chunks_mut(1).zip(instants).enumerate().for_each(work),
@@ -78,15 +78,15 @@ where
 }
 
 /// All control steps of a block whose first environment is `first`.
-fn trajectory<const W: usize, N: Number>(
+fn trajectory<R: Row>(
     model: &Model,
-    block: &mut Block<W, N>,
+    block: &mut Block<R>,
     first: usize,
     plan: Plan<'_>,
     instants: Vec<Instant<'_>>,
     stop: &AtomicBool,
 ) where
-    Block<W, N>: Steps,
+    Block<R>: Steps,
 {
     let per_step = plan.actions.len() / plan.control_steps.max(1);
     for (step, instant) in instants.into_iter().enumerate() {
@@ -99,9 +99,9 @@ fn trajectory<const W: usize, N: Number>(
     }
 }
 
-fn note_poses<const W: usize, N: Number>(
+fn note_poses<R: Row>(
     model: &Model,
-    block: &Block<W, N>,
+    block: &Block<R>,
     robot_pose: &mut [f64],
     magnet_pose: &mut [f64],
 ) {
@@ -121,8 +121,8 @@ fn note_poses<const W: usize, N: Number>(
 }
 
 /// Deals the rows of an output out, `[block][control step]`.
-fn by_block<'a, const W: usize, N: Number>(
-    blocks: &[Block<W, N>],
+fn by_block<'a, R: Row>(
+    blocks: &[Block<R>],
     count: usize,
     control_steps: usize,
     mut output: RolloutOutput<'a>,
@@ -132,7 +132,7 @@ fn by_block<'a, const W: usize, N: Number>(
     let mut dealt: Vec<Vec<_>> = blocks.iter().map(|_| Vec::with_capacity(control_steps)).collect();
     for _ in 0..control_steps {
         for (index, instants) in dealt.iter_mut().enumerate() {
-            let lanes = W.min(count - index * W);
+            let lanes = R::LANES.min(count - index * R::LANES);
             let control = ControlRows {
                 observation: take(&mut output.observation, lanes * observed),
                 progress_m: take(&mut output.progress_m, lanes),

@@ -1,33 +1,33 @@
 //! Rows of lanes, aligned to a cache line so that a vector never straddles two.
 
-use crate::lanes::Number;
+use crate::lanes::Row;
 use std::ops::{Deref, DerefMut};
 
 const LINE_BYTES: usize = 64;
 
 /// A list of rows, one number per lane in each.
 #[derive(Debug)]
-pub struct Rows<const W: usize, N = f64> {
+pub struct Rows<R: Row> {
     /// The rows stand at its end: kernels ask for them so often that one comparison less is felt.
-    store: Vec<N>,
+    store: Vec<R::Number>,
     start: usize,
 }
 
-impl<const W: usize, N: Number> Rows<W, N> {
+impl<R: Row> Rows<R> {
     /// `rows` rows of zeros.
     pub fn zeros(rows: usize) -> Self {
-        let line = LINE_BYTES / size_of::<N>();
-        let mut store = vec![N::default(); rows * W + line];
+        let line = LINE_BYTES / size_of::<R::Number>();
+        let mut store = vec![R::Number::default(); rows * R::LANES + line];
         let start = match store.as_ptr().align_offset(LINE_BYTES) {
             offset if offset < line => offset,
             _ => 0,
         };
-        store.truncate(start + rows * W);
+        store.truncate(start + rows * R::LANES);
         Self { store, start }
     }
 }
 
-impl<const W: usize, N: Number> Clone for Rows<W, N> {
+impl<R: Row> Clone for Rows<R> {
     fn clone(&self) -> Self {
         let mut copy = Self::zeros(self.len());
         copy.copy_from_slice(self);
@@ -35,18 +35,18 @@ impl<const W: usize, N: Number> Clone for Rows<W, N> {
     }
 }
 
-impl<const W: usize, N: Number> Deref for Rows<W, N> {
-    type Target = [[N; W]];
+impl<R: Row> Deref for Rows<R> {
+    type Target = [R];
     #[inline(always)]
-    fn deref(&self) -> &Self::Target {
-        self.store[self.start..].as_chunks().0
+    fn deref(&self) -> &[R] {
+        R::cut(&self.store[self.start..])
     }
 }
 
-impl<const W: usize, N: Number> DerefMut for Rows<W, N> {
+impl<R: Row> DerefMut for Rows<R> {
     #[inline(always)]
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        self.store[self.start..].as_chunks_mut().0
+    fn deref_mut(&mut self) -> &mut [R] {
+        R::cut_mut(&mut self.store[self.start..])
     }
 }
 
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn rows_are_aligned_and_survive_cloning() {
-        let mut rows = Rows::<8>::zeros(5);
+        let mut rows = Rows::<[f64; 8]>::zeros(5);
         rows[4][7] = 3.0;
         let copy = rows.clone();
         assert_eq!(copy.len(), 5);

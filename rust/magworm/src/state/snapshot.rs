@@ -6,7 +6,7 @@
 
 use super::batch::Batch;
 use super::block::{Block, Status};
-use crate::lanes::Number;
+use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::reset::apply_parameters;
 use std::sync::Arc;
@@ -137,27 +137,18 @@ impl Batch {
     }
 }
 
-pub(super) fn write_lane<const W: usize, N: Number>(
-    block: &Block<W, N>,
-    lane: usize,
-    out: &mut Vec<u8>,
-) {
+pub(super) fn write_lane<R: Row>(block: &Block<R>, lane: usize, out: &mut Vec<u8>) {
     for rows in block.state_rows() {
         rows.iter().for_each(|row| out.extend(row[lane].f64().to_bits().to_le_bytes()));
     }
     out.push(block.status[lane] as u8);
 }
 
-pub(super) fn read_lane<const W: usize, N: Number>(
-    model: &Model,
-    block: &mut Block<W, N>,
-    lane: usize,
-    column: &[u8],
-) {
+pub(super) fn read_lane<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, column: &[u8]) {
     let mut numbers = column.chunks_exact(8).map(|bits| f64::from_bits(number(bits)));
     for rows in block.state_rows_mut() {
         for row in rows.iter_mut() {
-            row[lane] = N::of(numbers.next().unwrap_or(0.0));
+            row[lane] = R::Number::of(numbers.next().unwrap_or(0.0));
         }
     }
     let code = column[column.len() - 1];

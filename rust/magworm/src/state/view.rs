@@ -3,7 +3,7 @@
 use super::block::{Block, Status};
 use super::pose::{Pose, Twist};
 use crate::drive::stage_axes;
-use crate::lanes::Number;
+use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::observe;
 use nalgebra::Vector3;
@@ -17,11 +17,7 @@ pub struct View<'a> {
 
 impl<'a> View<'a> {
     /// One lane of a block.
-    pub(super) fn new<const W: usize, N: Number>(
-        model: &'a Model,
-        block: &'a Block<W, N>,
-        lane: usize,
-    ) -> Self {
+    pub(super) fn new<R: Row>(model: &'a Model, block: &'a Block<R>, lane: usize) -> Self {
         Self { model, block, lane }
     }
 }
@@ -41,7 +37,7 @@ trait LaneView {
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64>;
 }
 
-impl<const W: usize, N: Number> LaneView for Block<W, N> {
+impl<R: Row> LaneView for Block<R> {
     fn node(&self, model: &Model, node: usize, lane: usize) -> Vector3<f64> {
         self.node_position(model, node, lane)
     }

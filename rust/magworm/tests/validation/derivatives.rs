@@ -149,7 +149,7 @@ fn validates_elastic_forces() {
     for (name, mut world) in bodies() {
         bend(&mut world);
         let q = unknowns(&world);
-        kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        kinematics::<2, _>(Scalar, &world.model, &mut world.block);
         world.assemble::<2>();
         let mut expected = DVector::zeros(q.len());
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
@@ -178,7 +178,7 @@ fn validates_implicit_step() {
             world.block.v[k][0] = 0.1 * (1.3 + 3.1 * k as f64).sin();
             world.block.lagged[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
         }
-        kinematics::<1, 2, _>(Scalar, &world.model, &mut world.block);
+        kinematics::<2, _>(Scalar, &world.model, &mut world.block);
         world.assemble::<2>();
         let matrix = expected_matrix(&world, &q, [3e-3 + 0.5 * dt, 0.51 * dt]);
         let taken_back = expected_matrix(&world, &q, [0.5 * dt, 0.5 * dt]);

@@ -32,7 +32,7 @@ impl World {
     pub fn refresh(&mut self) {
         // Frames of an environment that does not run stay as they are.
         self.block.running[0][0] = 1.0;
-        kinematics::<1, 3, _>(Scalar, &self.model, &mut self.block);
+        kinematics::<3, _>(Scalar, &self.model, &mut self.block);
     }
 
     /// Up direction of an element.

@@ -50,7 +50,7 @@ pub fn number(value: f64) -> String {
 /// One environment.
 pub struct World {
     pub model: Model,
-    pub block: Block<1>,
+    pub block: Block<[f64; 1]>,
 }
 
 impl World {
@@ -114,10 +114,10 @@ impl World {
     /// The equations of a step in D dimensions, without contact, from the kinematics as they stand.
     pub fn assemble<const D: usize>(&mut self) {
         let (model, block) = (&self.model, &mut self.block);
-        integrate::inertia::<1, D, _>(Scalar, model, block);
+        integrate::inertia::<D, _>(Scalar, model, block);
         integrate::gravity(Scalar, model, block);
-        integrate::magnets::<1, D, _>(Scalar, model, block);
-        integrate::springs::<1, D, _>(Scalar, model, block);
+        integrate::magnets::<D, _>(Scalar, model, block);
+        integrate::springs::<D, _>(Scalar, model, block);
     }
 
     /// Sets a rigid motion: velocity at the origin and angular velocity.

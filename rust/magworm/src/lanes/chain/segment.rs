@@ -1,44 +1,39 @@
 //! Elimination of one segment between two bodies, and the way back.
 
 use super::super::banded::{factor_row, unrolled};
-use super::super::{Isa, Number};
+use super::super::{Isa, Row};
 use super::{Chain, Segment};
 use std::ops::Range;
 
 /// The stored parts of a system.
-pub(super) struct Parts<'a, const W: usize, N> {
+pub(super) struct Parts<'a, R> {
     pub(super) chain: &'a Chain,
-    pub(super) band: &'a mut [[N; W]],
-    pub(super) border: &'a mut [[N; W]],
-    pub(super) kept: &'a mut [[N; W]],
+    pub(super) band: &'a mut [R],
+    pub(super) border: &'a mut [R],
+    pub(super) kept: &'a mut [R],
 }
 
-impl<const W: usize, N: Number> Parts<'_, W, N> {
+impl<R: Row> Parts<'_, R> {
     /// Eliminates a segment.
     #[inline(always)]
-    pub(super) fn condense<
-        I: Isa<W, Number = N>,
-        const H: usize,
-        const ROW: usize,
-        const K: usize,
-    >(
+    pub(super) fn condense<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [[N; W]],
+        right: &mut [R],
     ) {
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
         let Range { start, end } = segment.rows.clone();
         // The first rows of a segment reach back to its beginning only.
         unrolled!(offset < H => {
             if start + offset < end {
-                factor_row::<W, I, H, ROW>(isa, rows, start + offset + H, H - offset);
-                substitute::<W, I, H>(isa, &rows[start + offset + H], H - offset, start + offset, right);
+                factor_row::<I, H, ROW>(isa, rows, start + offset + H, H - offset);
+                substitute::<I, H>(isa, &rows[start + offset + H], H - offset, start + offset, right);
             }
         });
         for row in start + H..end {
-            factor_row::<W, I, H, ROW>(isa, rows, row + H, 0);
-            substitute::<W, I, H>(isa, &rows[row + H], 0, row, right);
+            factor_row::<I, H, ROW>(isa, rows, row + H, 0);
+            substitute::<I, H>(isa, &rows[row + H], 0, row, right);
         }
         if segment.left.is_some() {
             self.eliminate_left::<I, H, ROW, K>(isa, segment, right);
@@ -52,11 +47,11 @@ impl<const W: usize, N: Number> Parts<'_, W, N> {
 
     /// The body before a segment: carries its border down, and takes what the segment adds to it.
     #[inline(always)]
-    fn eliminate_left<I: Isa<W, Number = N>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_left<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [[N; W]],
+        right: &mut [R],
     ) {
         let Some(left) = segment.left else { return };
         let Some(place) = self.chain.place(left) else { return };
@@ -99,12 +94,12 @@ impl<const W: usize, N: Number> Parts<'_, W, N> {
 
     /// A row of the body behind a segment, and what the segment adds to it.
     #[inline(always)]
-    fn eliminate_right<I: Isa<W, Number = N>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_right<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
         [first, slot]: [usize; 2],
-        right: &mut [[N; W]],
+        right: &mut [R],
     ) {
         let Some(place) = self.chain.place(first) else { return };
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
@@ -162,18 +157,18 @@ fn first_column<const H: usize>(segment: &Segment, row: usize) -> usize {
 }
 
 #[inline(always)]
-fn subtract<const W: usize, I: Isa<W>>(isa: I, entry: &mut [I::Number; W], value: I::F) {
+fn subtract<I: Isa>(isa: I, entry: &mut I::Row, value: I::F) {
     isa.store(isa.load(entry) - value, entry);
 }
 
 /// Forward substitution in one row, whose entries in the segment begin in column `first`.
 #[inline(always)]
-fn substitute<const W: usize, I: Isa<W>, const H: usize>(
+fn substitute<I: Isa, const H: usize>(
     isa: I,
-    factored: &[[I::Number; W]],
+    factored: &[I::Row],
     first: usize,
     row: usize,
-    right: &mut [[I::Number; W]],
+    right: &mut [I::Row],
 ) {
     let reach = H - first;
     let (known, unknown) = right.split_at_mut(row);
@@ -187,19 +182,13 @@ fn substitute<const W: usize, I: Isa<W>, const H: usize>(
 
 /// Backward substitution through a segment.
 #[inline(always)]
-pub(super) fn recover<
-    const W: usize,
-    I: Isa<W>,
-    const H: usize,
-    const ROW: usize,
-    const K: usize,
->(
+pub(super) fn recover<I: Isa, const H: usize, const ROW: usize, const K: usize>(
     isa: I,
     segment: &Segment,
-    band: &[[I::Number; W]],
-    border: &[[I::Number; W]],
-    right: &[[I::Number; W]],
-    solution: &mut [[I::Number; W]],
+    band: &[I::Row],
+    border: &[I::Row],
+    right: &[I::Row],
+    solution: &mut [I::Row],
 ) {
     let (rows, _) = band.as_chunks::<ROW>();
     let (border, _) = border.as_chunks::<K>();

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::lanes::{
-    InstructionSet, Isa, Number, Scalar, ScalarSingle, Single, WIDE, WIDE_SINGLE, WideTask,
+    InstructionSet, Isa, Number, Row, Scalar, ScalarSingle, Single, WIDE, WIDE_SINGLE, WideTask,
     run_single_on, run_wide,
 };
 
@@ -151,15 +151,15 @@ fn logarithms_of_ratios_in_single_precision_are_within_three_roundings() {
     assert!(error <= 1.8e-7);
 }
 
-struct Everything<'a, const W: usize, N>(&'a [[N; W]], &'a [[N; W]]);
-impl<const W: usize, N: Number> WideTask<W, N> for Everything<'_, W, N> {
-    type Output = Vec<[[N; W]; 7]>;
-    fn run<I: Isa<W, Number = N>>(self, isa: I) -> Self::Output {
-        let run = |(x, y): (&[N; W], &[N; W])| {
+struct Everything<'a, R>(&'a [R], &'a [R]);
+impl<R: Row> WideTask<R> for Everything<'_, R> {
+    type Output = Vec<[R; 7]>;
+    fn run<I: Isa<Row = R>>(self, isa: I) -> Self::Output {
+        let run = |(x, y): (&R, &R)| {
             isa.vectorize(
                 #[inline(always)]
                 || {
-                    let mut rows = [[N::default(); W]; 7];
+                    let mut rows = [R::zeros(); 7];
                     for (row, value) in rows.iter_mut().zip(all(isa.load(x), isa.load(y))) {
                         isa.store(value, row);
                     }
@@ -171,11 +171,12 @@ impl<const W: usize, N: Number> WideTask<W, N> for Everything<'_, W, N> {
     }
 }
 
-/// Arguments of all functions, in rows of W lanes.
-fn arguments<const W: usize, N: Number>() -> [Vec<[N; W]>; 2] {
-    let rows = |seed, f: fn(f64) -> f64| -> Vec<[N; W]> {
-        let samples: Vec<N> = uniform(1 << 16, seed).into_iter().map(|u| N::of(f(u))).collect();
-        samples.chunks_exact(W).map(|row| row.try_into().unwrap()).collect()
+/// Arguments of all functions, in rows.
+fn arguments<R: Row>() -> [Vec<R>; 2] {
+    let rows = |seed, f: fn(f64) -> f64| -> Vec<R> {
+        let samples: Vec<_> =
+            uniform(1 << 16, seed).into_iter().map(|u| R::Number::of(f(u))).collect();
+        R::cut(&samples).to_vec()
     };
     let x = rows(9, |u| (60.0 * (u - 0.5)).exp());
     let y = rows(10, |u| (20.0 * (u - 0.65)).exp().copysign(u - 0.4).max(-900.0));
@@ -183,16 +184,16 @@ fn arguments<const W: usize, N: Number>() -> [Vec<[N; W]>; 2] {
 }
 
 /// Each lane against one lane alone.
-fn lanes_equal_one<const W: usize, N: Number, I: Isa<1, Number = N>>(
+fn lanes_equal_one<R: Row, I: Isa<Row = [R::Number; 1]>>(
     isa: I,
-    [x, y]: &[Vec<[N; W]>; 2],
-    wide: &[[[N; W]; 7]],
+    [x, y]: &[Vec<R>; 2],
+    wide: &[[R; 7]],
 ) {
     for (i, wide) in wide.iter().enumerate() {
-        for lane in 0..W {
+        for lane in 0..R::LANES {
             let alone = all(isa.load(&[x[i][lane]]), isa.load(&[y[i][lane]]));
             for (row, value) in wide.iter().zip(alone) {
-                let mut one = [N::default()];
+                let mut one = [R::Number::default()];
                 isa.store(value, &mut one);
                 assert_eq!(row[lane].f64().to_bits(), one[0].f64().to_bits());
             }
@@ -202,9 +203,9 @@ fn lanes_equal_one<const W: usize, N: Number, I: Isa<1, Number = N>>(
 
 #[test]
 fn many_lanes_have_the_bits_of_one() {
-    let double = arguments::<WIDE, f64>();
+    let double = arguments::<[f64; WIDE]>();
     lanes_equal_one(Scalar, &double, &run_wide(Everything(&double[0], &double[1])));
-    let single = arguments::<WIDE_SINGLE, f32>();
+    let single = arguments::<[f32; WIDE_SINGLE]>();
     let task = Everything(&single[0], &single[1]);
     lanes_equal_one(ScalarSingle, &single, &run_single_on(InstructionSet::widest(), task));
 }
