@@ -14,7 +14,7 @@
 //! | [`magnetic`] | field of a cuboid, wrench between cuboids, dipoles |
 //! | [`contact`] | ground contact and friction |
 //! | [`drive`] | motion of the drive magnets |
-//! | [`integrate`] | the equations of one step |
+//! | [`equations`] | the equations of one step |
 //! | [`step`] | a step as a table of contents |
 //! | [`record`] | many scenes, each run once and watched |
 //! | [`share`] | what each phase of a step costs |
@@ -25,7 +25,7 @@
 pub mod contact;
 pub mod drive;
 pub mod elastic;
-pub mod integrate;
+pub mod equations;
 pub mod lanes;
 pub mod magnetic;
 pub mod model;

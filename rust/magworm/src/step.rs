@@ -3,7 +3,7 @@
 use crate::contact;
 use crate::drive::{DriveModel, Path, StageModel, on_waypoints, stage_axes};
 use crate::elastic;
-use crate::integrate;
+use crate::equations;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Number, Real, Row};
 use crate::model::{Model, Phase};
@@ -67,19 +67,19 @@ fn run<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>,
         ),
         Phase::Inertia => isa.vectorize(
             #[inline(always)]
-            || integrate::inertia::<D, I>(isa, model, block),
+            || equations::inertia::<D, I>(isa, model, block),
         ),
         Phase::Gravity => isa.vectorize(
             #[inline(always)]
-            || integrate::gravity(isa, model, block),
+            || equations::gravity(isa, model, block),
         ),
         Phase::Magnets => isa.vectorize(
             #[inline(always)]
-            || integrate::magnets::<D, I>(isa, model, block),
+            || equations::magnets::<D, I>(isa, model, block),
         ),
         Phase::Springs => isa.vectorize(
             #[inline(always)]
-            || integrate::springs::<D, I>(isa, model, block),
+            || equations::springs::<D, I>(isa, model, block),
         ),
         Phase::System => solve(isa, model, block),
         Phase::ContactPoints => contact::detect::<D, I>(isa, model, block),

@@ -3,7 +3,7 @@
 use super::rows::Rows;
 use crate::contact::Workspace;
 use crate::drive::stage_axes;
-use crate::integrate::held_rows;
+use crate::equations::held_rows;
 use crate::lanes::Row;
 use crate::model::Model;
 

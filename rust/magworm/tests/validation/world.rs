@@ -1,6 +1,6 @@
 //! One environment whose state a test may set and read freely.
 
-use magworm::integrate;
+use magworm::equations;
 use magworm::lanes::Scalar;
 use magworm::model::{Anchor, Model};
 use magworm::reset::{Draws, StartPose, reset, scene_start};
@@ -114,10 +114,10 @@ impl World {
     /// The equations of a step in D dimensions, without contact, from the kinematics as they stand.
     pub fn assemble<const D: usize>(&mut self) {
         let (model, block) = (&self.model, &mut self.block);
-        integrate::inertia::<D, _>(Scalar, model, block);
-        integrate::gravity(Scalar, model, block);
-        integrate::magnets::<D, _>(Scalar, model, block);
-        integrate::springs::<D, _>(Scalar, model, block);
+        equations::inertia::<D, _>(Scalar, model, block);
+        equations::gravity(Scalar, model, block);
+        equations::magnets::<D, _>(Scalar, model, block);
+        equations::springs::<D, _>(Scalar, model, block);
     }
 
     /// Sets a rigid motion: velocity at the origin and angular velocity.
