@@ -6,6 +6,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`integrate`] | the coefficients of the integrators |
 //! | [`scene`] | what a person writes; validation |
 //! | [`model`] | mesh, unknowns, springs, masses, the program of terms |
 //! | [`state`] | blocks, batches, snapshots |
@@ -26,6 +27,7 @@ pub mod contact;
 pub mod drive;
 pub mod elastic;
 pub mod equations;
+pub mod integrate;
 pub mod lanes;
 pub mod magnetic;
 pub mod model;

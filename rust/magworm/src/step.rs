@@ -122,7 +122,7 @@ fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
     let go = running & sound;
     let count = isa.load(&block.step_count[0]);
     isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
-    let (lag, size) = (elastic::lag(model.scene.solver.integrator), model.coordinates.count);
+    let (lag, size) = (model.scene.solver.integrator.coefficients().lag, model.coordinates.count);
     let (places, speeds) = (&mut block.q[..size], &mut block.v[..size]);
     let (ends, lags) = (&block.next[..size], &mut block.lagged[..size]);
     for dof in 0..size {

@@ -5,7 +5,7 @@
 //! −k (s + τ g·v) g.
 //!
 //! In all schemes the impulse of a step is −Δt k (s + a g·v + b g·v⁺) g: a number on the right, and where b is not 0 a
-//! rank-one matrix on the left. [`Scheme`] says what a and b are.
+//! rank-one matrix on the left. Each integrator has its a and b, see [`crate::integrate`].
 //!
 //! Kernels are generic over the dimension D: 2 in the plane, 3 in space. In the plane a node bends in one
 //! way; in space in two, and it twists.
@@ -24,9 +24,9 @@ pub use stretch::assemble as stretch;
 pub use twist::assemble as bend_and_twist;
 pub use vector::{cross, dot};
 
+use crate::integrate::Coefficients;
 use crate::lanes::{Isa, Real};
 use crate::model::{MOST, Spin, Stencil};
-use crate::scene::Integrator;
 
 /// How the impulse of a spring enters the equations of a step.
 #[derive(Clone, Copy, Debug)]
@@ -43,49 +43,18 @@ pub struct Scheme<F> {
     pub geometric_s: [f64; 2],
 }
 
-/// Newmark's β.
-const BETA: f64 = 0.5;
-/// Share of the velocity of the step before in [`lag`], under Newmark's scheme.
-const LAG: f64 = 0.1;
-
-/// Least retardation time of the geometric stiffness under Newmark's scheme, in steps. A tension that changes from step to step
-/// can feed vibrations across it that are far faster than the step, which the lag alone does not stop.
-const STEADYING: f64 = 0.01;
-
-/// λ: what springs take for the velocity at the start of a step is (1 − λ) v + λ v⁻, with v⁻ that of the step before.
-///
-/// Newmark's scheme with β = ½ alone does not damp at all, and rods whose vibration is far faster than the step do not come
-/// to rest. As in the method of Hilber, Hughes & Taylor (1977) older values help: Δt times the change of velocity between
-/// the two steps is of second order, so the scheme remains so. A vibration of frequency ω loses ¼ λ (ω Δt)³ of its
-/// amplitude a radian, and 10 % a step where ω Δt is large; it grows for no ω Δt while λ < ½.
-pub const fn lag(integrator: Integrator) -> f64 {
-    match integrator {
-        Integrator::Newmark => LAG,
-        Integrator::Euler | Integrator::Explicit => 0.0,
-    }
-}
-
 impl<F: Real> Scheme<F> {
     /// The scheme of an integrator, of a retardation time τ and a step Δt.
-    ///
-    /// - *Newmark*, β = γ = ½, in its two-step form: the strain at the start of the step, which stands half-way between two
-    ///   velocities, and β Δt² of its acceleration, hence a = −β Δt, b = τ + β Δt, with a velocity at the start that lags, see
-    ///   [`lag`]. Of second order but for damping, whose rate is taken at v⁺, and for Δt/100 in
-    ///   the geometric stiffness; stable for any stiffness.
-    /// - *Backward Euler*: strain at the end of the step, a = 0, b = τ + Δt. Damps like a retardation time Δt.
-    /// - *Explicit*: a = τ, b = 0.
     #[inline(always)]
-    pub fn new(integrator: Integrator, stiffness: F, damping_s: F, dt: f64) -> Self {
-        let zero = stiffness.splat(0.0);
-        let ahead_s = BETA * dt;
-        let (before_s, after_s, geometric_s) = match integrator {
-            Integrator::Newmark => {
-                (zero - ahead_s, damping_s + ahead_s, [-ahead_s, STEADYING * dt + ahead_s])
-            }
-            Integrator::Euler => (zero, damping_s + dt, [0.0, dt]),
-            Integrator::Explicit => (damping_s, zero, [0.0; 2]),
-        };
-        Self { stiffness, dt, before_s, after_s, geometric_s }
+    pub fn new(integrator: &Coefficients, stiffness: F, damping_s: F, dt: f64) -> Self {
+        let seconds = |[retardation, steps]: [f64; 2]| damping_s * retardation + steps * dt;
+        Self {
+            stiffness,
+            dt,
+            before_s: seconds(integrator.before),
+            after_s: seconds(integrator.after),
+            geometric_s: (integrator.geometric_s)(dt),
+        }
     }
 
     /// Whether strain rates at the end of the step count.

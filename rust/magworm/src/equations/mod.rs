@@ -1,17 +1,20 @@
-//! Time integration: the equations of one step, A v⁺ = b, for three schemes behind one shape.
+//! The equations of one step, A v⁺ = b:
 //!
-//! All are solved by the same banded factorisation and the same contact solve; they differ in their
-//! unknowns and in what goes into A and b.
+//! ```text
+//! (M + Δt b Σ k g gᵀ) v⁺ = M v + Δt (F − Σ k (s + a g·v) g),   q⁺ = q + Δt v⁺
+//! ```
+//!
+//! with strains s, gradients g and forces F at q, and the a and b of the integrator, see [`crate::integrate`]. All
+//! integrators are solved by the same banded factorisation and the same contact solve.
 
-mod explicit;
 mod hold;
-mod implicit;
 mod loads;
+mod ties;
 
 use crate::elastic::{self, Scheme};
 use crate::lanes::Isa;
 use crate::model::Model;
-use crate::scene::{Integrator, Parameter};
+use crate::scene::Parameter;
 use crate::state::Block;
 
 pub use hold::rows as held_rows;
@@ -27,16 +30,17 @@ pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
     }
 }
 
-/// Adds the springs of the rod, and what else the integrator asks for.
+/// Adds the springs of the rod, and the multipliers where magnets are held by them.
 #[inline(always)]
 pub fn springs<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let scheme = scheme(isa, model, block);
-    match model.scene.solver.integrator {
-        Integrator::Newmark | Integrator::Euler => {
-            implicit::assemble::<D, I>(isa, model, block, scheme)
-        }
-        Integrator::Explicit => explicit::assemble::<D, I>(isa, model, block, scheme),
+    elastic::stretch::<D, I>(isa, model, block, scheme);
+    if D == 2 {
+        elastic::bend(isa, model, block, scheme);
+    } else {
+        elastic::bend_and_twist(isa, model, block, scheme);
     }
+    ties::constrain::<D, I>(isa, model, block);
 }
 
 /// M on the left, M v on the right.
@@ -81,22 +85,6 @@ fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 fn scheme<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> Scheme<I::F> {
     let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
     let damping_s = factor(Parameter::Damping) * model.scene.material.damping_time_s;
-    let integrator = model.scene.solver.integrator;
+    let integrator = model.scene.solver.integrator.coefficients();
     Scheme::new(integrator, factor(Parameter::Stiffness), damping_s, model.step_s)
-}
-
-/// Adds stretching, bending and twisting.
-#[inline(always)]
-fn rod<const D: usize, I: Isa>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<I::Row>,
-    scheme: Scheme<I::F>,
-) {
-    elastic::stretch::<D, I>(isa, model, block, scheme);
-    if D == 2 {
-        elastic::bend(isa, model, block, scheme);
-    } else {
-        elastic::bend_and_twist(isa, model, block, scheme);
-    }
 }

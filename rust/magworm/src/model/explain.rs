@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
 use super::{Model, UniformTorque};
-use crate::scene::{Curvature, Integrator, MagnetModel, Precision};
+use crate::scene::{Curvature, MagnetModel, Precision};
 use std::fmt::Write;
 
 impl Model {
@@ -12,11 +12,7 @@ impl Model {
             // Writing to a String cannot fail.
             let _ = writeln!(text, "{name:<14}{words}");
         };
-        let scheme = match self.scene.solver.integrator {
-            Integrator::Newmark => "Newmark, linearly implicit, magnets eliminated",
-            Integrator::Euler => "backward Euler, linearly implicit, magnets eliminated",
-            Integrator::Explicit => "explicit, magnets held by Lagrange multipliers",
-        };
+        let scheme = self.scene.solver.integrator.coefficients().words;
         line("integrator", format!("{scheme}, step {} s{}", self.step_s, self.explain_limit()));
         let precision = match self.scene.solver.precision {
             Precision::Double => "double, eight robots in a vector",
@@ -46,7 +42,7 @@ impl Model {
     }
 
     fn explain_limit(&self) -> String {
-        if self.scene.solver.integrator != Integrator::Explicit {
+        if !self.scene.solver.integrator.is_explicit() {
             return String::new();
         }
         let limit = self.explicit_limit();

@@ -25,7 +25,7 @@ use crate::drive::DriveModel;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
-use crate::scene::{Ground, Integrator, Parameter, Scene, SceneError};
+use crate::scene::{Ground, Parameter, Scene, SceneError};
 
 /// A compiled scene.
 #[derive(Clone, Debug)]
@@ -153,9 +153,10 @@ impl Model {
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let mesh = Mesh::new(scene);
-        let unknowns = match scene.solver.integrator {
-            Integrator::Newmark | Integrator::Euler => Unknowns::Reduced,
-            Integrator::Explicit => Unknowns::Multipliers,
+        let integrator = scene.solver.integrator;
+        let unknowns = match integrator.coefficients().multipliers {
+            false => Unknowns::Reduced,
+            true => Unknowns::Multipliers,
         };
         let coordinates = Coordinates::new(&mesh, unknowns, scene.dimensions);
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
@@ -186,7 +187,7 @@ impl Model {
             coordinates,
             mesh,
         };
-        if scene.solver.integrator == Integrator::Explicit {
+        if integrator.is_explicit() {
             model.explicit_limit().check(step_s)?;
         }
         Ok(model)

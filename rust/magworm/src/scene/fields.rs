@@ -3,6 +3,7 @@
 //! Ranges are wide: they keep out slips of unit and what no method here can compute, not scenes
 //! that are merely unusual. Where fields depend on each other, see the rules beside this file.
 
+use super::Integrator;
 use super::schema::{Kind, Table, Variant, optional, real, required, whole};
 
 /// Most magnets in a body.
@@ -259,7 +260,7 @@ static START: Table = Table {
 
 static SOLVER: Table = Table {
     fields: &[
-        optional("integrator", Kind::Choice(&["newmark", "euler", "explicit"])),
+        optional("integrator", Kind::Choice(&Integrator::NAMES)),
         optional("step_s", SHORT),
         optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
         optional("quadrature_order", whole(1, 10)),

@@ -27,6 +27,7 @@ mod solver;
 mod surroundings;
 mod validate;
 
+pub use crate::integrate::Integrator;
 pub use body::{
     Body, Clamp, Magnet, Material, Rod, RodMagnet, Segment, SegmentMagnet, Segments, Worm,
 };
@@ -36,7 +37,7 @@ pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub(crate) use segments::Plan;
 pub use solver::{
-    Control, Curvature, Integrator, MagnetModel, Parameter, Precision, Reset, Solver, Start,
+    Control, Curvature, MagnetModel, Parameter, Precision, Reset, Solver, Start,
     Variation,
 };
 pub use surroundings::{Ground, MagneticTerms, UniformField};

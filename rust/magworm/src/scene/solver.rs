@@ -1,5 +1,6 @@
 //! Time integration, control, start and reset.
 
+use crate::integrate::Integrator;
 use serde::{Deserialize, Serialize};
 
 /// Time integration of the equations of motion.
@@ -38,19 +39,6 @@ impl Default for Solver {
             precision: Precision::Double,
         }
     }
-}
-
-/// A scheme of time integration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integrator {
-    /// Newmark's, linearly implicit, of second order; rigid magnets eliminated.
-    Newmark,
-    /// Backward Euler, linearly implicit, of first order; damps like a retardation time of one step. Rigid magnets
-    /// eliminated.
-    Euler,
-    /// The paper's: explicit forces, rigid magnets held by Lagrange multipliers.
-    Explicit,
 }
 
 /// Curvature of a node, times its length, from its turning angle φ.

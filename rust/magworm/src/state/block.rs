@@ -79,7 +79,7 @@ pub struct Block<R: Row> {
     pub q: Rows<R>,
     /// Their velocities [m/s, rad/s]; multipliers hold impulses [N·s], shape [unknowns].
     pub v: Rows<R>,
-    /// What the springs take for the velocities at the start of a step [m/s, rad/s], see [`crate::elastic::lag`],
+    /// What the springs take for the velocities at the start of a step [m/s, rad/s], see [`crate::integrate::Coefficients::lag`],
     /// shape [unknowns].
     pub lagged: Rows<R>,
     /// Normal impulse of each contact in the last step [N·s], shape [contacts].

@@ -17,12 +17,15 @@ const WHOLE: f64 = 1e-9;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     let (step_s, control) = (scene.solver.step_s, &scene.control);
-    let implicit = scene.solver.integrator != Integrator::Explicit;
+    let explicit = scene.solver.integrator.is_explicit();
     require(
-        !implicit || step_s >= SHORTEST_IMPLICIT_STEP_S,
+        explicit || step_s >= SHORTEST_IMPLICIT_STEP_S,
         "solver.step_s",
         quantity(step_s, "s"),
-        || format!("{} or more for newmark and euler", quantity(SHORTEST_IMPLICIT_STEP_S, "s")),
+        || {
+            let implicit = Integrator::names(false);
+            format!("{} or more for {implicit}", quantity(SHORTEST_IMPLICIT_STEP_S, "s"))
+        },
     )?;
     precision(scene)?;
     whole_number("control.step_s", control.step_s, "solver.step_s", step_s)?;
@@ -34,11 +37,12 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 fn precision(scene: &Scene) -> Result<(), Problem> {
     let Scene { solver, .. } = scene;
     let single = solver.precision == Precision::Single;
-    let long = solver.integrator != Integrator::Explicit && solver.step_s >= SHORTEST_SINGLE_STEP_S;
+    let long = !solver.integrator.is_explicit() && solver.step_s >= SHORTEST_SINGLE_STEP_S;
     require(!single || long, "solver.precision", "\"single\"".into(), || {
-        let shortest = quantity(SHORTEST_SINGLE_STEP_S, "s");
+        let (explicit, shortest) =
+            (Integrator::names(true), quantity(SHORTEST_SINGLE_STEP_S, "s"));
         format!(
-            "\"double\" with explicit and with steps below {shortest}, which move less than single precision tells apart"
+            "\"double\" with {explicit} and with steps below {shortest}, which move less than single precision tells apart"
         )
     })
 }

@@ -1,37 +1,24 @@
-//! The paper's scheme: explicit forces, rigid magnets held by Lagrange multipliers.
+//! Rigid magnets held by Lagrange multipliers, as in the paper.
 //!
 //! M v⁺ = M v + Δt (F(q, v)) + Gᵀμ with the constraint G v⁺ = −c(q)/Δt of every magnet end,
 //! c = x_node − X − R(θ) r: the node follows the magnet, and what it strayed in the last step
 //! (the centripetal ½ ω² r Δt²) is taken back. The saddle-point matrix [M Gᵀ; G 0] stays banded.
 
-use super::rod;
-use crate::elastic::Scheme;
 use crate::lanes::Isa;
 use crate::model::{Anchor, Model, Tie};
 use crate::state::Block;
 
-/// Adds the elastic terms and the constraints of a step.
+/// Adds the constraints of a step.
 #[inline(always)]
-pub fn assemble<const D: usize, I: Isa>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<I::Row>,
-    scheme: Scheme<I::F>,
-) {
-    rod::<D, I>(isa, model, block, scheme);
+pub fn constrain<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for tie in &model.coordinates.ties {
-        constrain::<D, I>(isa, model, block, tie, scheme.dt);
+        follow::<D, I>(isa, model, block, tie);
     }
 }
 
+/// The node of a tie follows its magnet.
 #[inline(always)]
-fn constrain<const D: usize, I: Isa>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<I::Row>,
-    tie: &Tie,
-    dt: f64,
-) {
+fn follow<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie: &Tie) {
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
     let reach = f64::from(tie.side) * model.mesh.magnets[tie.body].half_length_m;
@@ -43,7 +30,7 @@ fn constrain<const D: usize, I: Isa>(
     for k in 0..D {
         let row = tie.dof + k;
         let strayed = isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
-        isa.store(-(strayed / dt), &mut block.right[row]);
+        isa.store(-(strayed / model.step_s), &mut block.right[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));
         if D == 2 {
