@@ -253,8 +253,7 @@ impl Batch {
     }
 
     fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let drive = self.batch.model().program.drive.as_ref();
-        let magnets = drive.map_or(0, |d| d.layout.offset_m.len());
+        let magnets = self.batch.model().program.drive_magnets();
         self.per_item(py, magnets, [2, 4], |view, k| view.drive_place(k).unwrap_or_default())
     }
 

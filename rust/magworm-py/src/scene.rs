@@ -114,7 +114,7 @@ impl Scene {
 
     #[getter]
     fn controlled(&self) -> bool {
-        self.model.program.drive.as_ref().is_some_and(|drive| drive.is_controlled())
+        self.model.program.is_controlled()
     }
 
     #[getter]

@@ -14,7 +14,7 @@
 //! | [`elastic`] | kinematics, stretching and bending of the rod |
 //! | [`magnetic`] | field of a cuboid, wrench between cuboids, dipoles |
 //! | [`contact`] | ground contact and friction |
-//! | [`drive`] | motion of the drive magnets |
+//! | [`actuator`] | what moves the drive magnets: action, observation, motion |
 //! | [`equations`] | the equations of one step |
 //! | [`step`] | a step as a table of contents |
 //! | [`record`] | many scenes, each run once and watched |
@@ -23,8 +23,10 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
+pub mod actuate;
+pub mod actuator;
 pub mod contact;
-pub mod drive;
+pub mod draws;
 pub mod elastic;
 pub mod equations;
 pub mod integrate;
@@ -36,5 +38,6 @@ pub mod record;
 pub mod reset;
 pub mod scene;
 pub mod share;
+pub mod specification;
 pub mod state;
 pub mod step;

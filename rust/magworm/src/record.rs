@@ -60,8 +60,8 @@ fn record_one(model: &Arc<Model>, watch: Watch) -> Recording {
 impl Recording {
     fn note(&mut self, model: &Model, view: &View<'_>, nodes: bool) {
         self.magnet_poses.extend((0..model.magnets()).flat_map(|j| view.magnet_pose(j)));
-        let drives = model.program.drive.as_ref().map_or(0, |drive| drive.layout.offset_m.len());
-        self.drive.extend((0..drives).filter_map(|k| view.drive_place(k)).flatten());
+        let drives = 0..model.program.drive_magnets();
+        self.drive.extend(drives.filter_map(|k| view.drive_place(k)).flatten());
         if nodes {
             self.node_m.extend((0..model.nodes()).flat_map(|n| view.node_m(n)));
         }

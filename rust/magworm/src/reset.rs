@@ -2,10 +2,11 @@
 
 mod laid;
 
+pub use crate::draws::Draws;
 use laid::{Bent, Laid, Straight};
 
-use crate::drive::{DriveModel, Path, StageModel, stage_axes};
-use crate::lanes::math::{radians, sin_cos};
+use crate::actuate;
+use crate::lanes::math::radians;
 use crate::lanes::{Number, Row};
 use crate::model::{Anchor, Model};
 use crate::scene::Parameter;
@@ -24,34 +25,6 @@ pub struct StartPose {
     pub z_m: f64,
     /// Rotation about the vertical through the head end after that, in space [rad]; anticlockwise from above.
     pub yaw_rad: f64,
-}
-
-/// Numbers that depend on (seed, episode, place in the sequence) alone: SplitMix64 (Steele, Lea &
-/// Flood 2014) as a counter-based generator. Equal for any batch size, order and thread count.
-#[derive(Clone, Copy, Debug)]
-pub struct Draws {
-    key: u64,
-    count: u64,
-}
-
-impl Draws {
-    /// The sequence of one episode of one environment.
-    pub fn new(seed: u64, episode: u64) -> Self {
-        Self { key: mix(mix(seed) ^ episode.wrapping_mul(0xd134_2543_de82_ef95)), count: 0 }
-    }
-
-    /// The next number, uniform in [low, high).
-    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
-        self.count += 1;
-        let bits = mix(self.key.wrapping_add(self.count.wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-        low + (high - low) * (bits >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 /// The scene's start pose.
@@ -102,9 +75,7 @@ pub fn reset<R: Row>(
     }
     lay(model, block, lane, start);
     apply_parameters(model, block, lane);
-    if let Some(drive) = &model.program.drive {
-        place_drive(model, drive, block, lane, &mut draws);
-    }
+    actuate::place(model, block, lane, &mut draws);
     block.status[lane] = Status::Running;
 }
 
@@ -177,51 +148,4 @@ pub fn apply_parameters<R: Row>(model: &Model, block: &mut Block<R>, lane: usize
         let is_in = block.present[body][lane].f64();
         block.remanence[body][lane] = R::Number::of(remanence_t * is_in);
     }
-}
-
-fn place_drive<R: Row>(
-    model: &Model,
-    drive: &DriveModel,
-    block: &mut Block<R>,
-    lane: usize,
-    draws: &mut Draws,
-) {
-    let axes = stage_axes(model.dimensions());
-    let place = match &drive.path {
-        Path::Controlled(limits) => {
-            let [x, z, heading] = block.robot_pose(model, lane);
-            if model.scene.reset.random_drive {
-                random_place(limits, [x, z, heading], axes, draws)
-            } else {
-                [x, limits.lowest_m, z, heading]
-            }
-        }
-        Path::Constant { start, .. } => *start,
-        Path::Waypoints { point, .. } => point[0],
-    };
-    for axis in 0..axes {
-        block.stage[axis][lane] = R::Number::of(place[axis]);
-        block.stage[axes + axis][lane] = R::Number::default();
-        block.target[axis][lane] = R::Number::of(place[axis]);
-    }
-    block.target[axes][lane] = R::Number::default();
-    block.action.iter_mut().for_each(|row| row[lane] = R::Number::default());
-}
-
-/// A place within the limits of a stage, around a robot.
-fn random_place(
-    limits: &StageModel,
-    [x, z, heading]: [f64; 3],
-    axes: usize,
-    draws: &mut Draws,
-) -> [f64; 4] {
-    let along = draws.uniform(-limits.reach_m, limits.reach_m);
-    let height = draws.uniform(limits.lowest_m, limits.highest_m);
-    if axes == 2 {
-        return [x + along, height, 0.0, 0.0];
-    }
-    let aside = draws.uniform(-limits.lateral_reach_m, limits.lateral_reach_m);
-    let yaw = heading + draws.uniform(-limits.yaw_reach_rad, limits.yaw_reach_rad);
-    let (sin, cos) = sin_cos(heading);
-    [x + along * cos + aside * sin, height, z + aside * cos - along * sin, yaw]
 }

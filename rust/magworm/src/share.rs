@@ -3,12 +3,12 @@
 //! A block of robots of the scene acts at random from its start pose. The same run is made several times: trajectories are
 //! equal bit for bit, so of each phase in each step the least time counts, and interruptions do not.
 
+use crate::actuate::command;
 use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::{Model, Phase};
 use crate::reset::{Draws, reset, scene_start};
 use crate::scene::Precision;
 use crate::state::{Block, Steps};
-use crate::step::command;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -85,11 +85,10 @@ fn start<R: Row>(model: &Model) -> Block<R> {
 
 /// A random action for each robot, held for four control steps.
 fn act<R: Row>(model: &Model, block: &mut Block<R>, control_step: u64) {
-    let Some(drive) = &model.program.drive else { return };
     for lane in 0..R::LANES {
         let mut draws = Draws::new(lane as u64, 1000 + control_step / 4);
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
-        command(model, drive, block, lane, &action);
+        command(model, block, lane, &action);
     }
 }
 

@@ -1,15 +1,12 @@
-//! One solver step of a block, and one control step made of them.
+//! One solver step of a block: its phases in their order, and the commit.
 
+use crate::actuate;
 use crate::contact;
-use crate::drive::{DriveModel, Path, StageModel, on_waypoints, stage_axes};
 use crate::elastic;
 use crate::equations;
-use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Number, Real, Row};
 use crate::model::{Model, Phase};
-use crate::scene::Parameter;
 use crate::state::{Block, Status};
-use std::f64::consts::TAU;
 
 /// Advances a block by `steps` solver steps. Environments that break stand still.
 #[inline(always)]
@@ -94,7 +91,7 @@ fn run<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>,
         ),
         Phase::Drive => isa.vectorize(
             #[inline(always)]
-            || move_drive::<D, I>(isa, model, block),
+            || actuate::advance::<D, I>(isa, model, block),
         ),
     }
 }
@@ -193,127 +190,5 @@ fn mark_broken<I: Isa>(
                 rows.iter_mut().for_each(|row| row[lane] = Number::of(0.0));
             }
         }
-    }
-}
-
-/// Puts the drive where it is at the end of the step.
-#[inline(always)]
-fn move_drive<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let Some(drive) = &model.program.drive else { return };
-    let axes = stage_axes(D);
-    let time = isa.load(&block.step_count[0]) * model.step_s;
-    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    let zero = isa.splat(0.0);
-    let (mut place, mut speed) = ([zero; 4], [zero; 4]);
-    match &drive.path {
-        Path::Controlled(limits) => {
-            let greatest = isa.load(&block.target[axes]);
-            for axis in 0..axes {
-                let limit = if axis == 3 {
-                    greatest * (limits.yaw_speed_rad_s / limits.speed_m_s)
-                } else {
-                    greatest
-                };
-                (place[axis], speed[axis]) = StageModel::advance(
-                    limits.acceleration(axis),
-                    isa.load(&block.stage[axis]),
-                    isa.load(&block.stage[axes + axis]),
-                    isa.load(&block.target[axis]),
-                    limit,
-                    model.step_s,
-                );
-            }
-        }
-        Path::Constant { start, speed_m_s } => {
-            speed[0] = isa.load(&block.factors[Parameter::DriveSpeed as usize]) * *speed_m_s;
-            place[0] = speed[0] * time + start[0];
-            for axis in 1..axes {
-                place[axis] = isa.splat(start[axis]);
-            }
-        }
-        Path::Waypoints { time_s, point } => {
-            follow(isa, time_s, point, time, &mut place, &mut speed);
-        }
-    }
-    for axis in 0..axes {
-        for (row, value) in [(axis, place[axis]), (axes + axis, speed[axis])] {
-            let row = &mut block.stage[row];
-            isa.store(I::F::select(running, value, isa.load(row)), row);
-        }
-    }
-}
-
-/// Waypoints lane by lane: environments may have been reset at different times.
-#[inline(always)]
-fn follow<I: Isa>(
-    isa: I,
-    time_s: &[f64],
-    point: &[[f64; 4]],
-    time: I::F,
-    place: &mut [I::F; 4],
-    speed: &mut [I::F; 4],
-) {
-    let mut now = I::Row::zeros();
-    isa.store(time, &mut now);
-    let mut rows = [I::Row::zeros(); 8];
-    for lane in 0..I::Row::LANES {
-        let (position, velocity) = on_waypoints(time_s, point, now[lane].f64());
-        for axis in 0..4 {
-            rows[axis][lane] = Number::of(position[axis]);
-            rows[4 + axis][lane] = Number::of(velocity[axis]);
-        }
-    }
-    for axis in 0..4 {
-        place[axis] = isa.load(&rows[axis]);
-        speed[axis] = isa.load(&rows[4 + axis]);
-    }
-}
-
-/// x of the robot's centre: mean of its magnets.
-#[inline(always)]
-pub fn robot_centre<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::F {
-    let mut sum = isa.splat(0.0);
-    for &dof in &model.coordinates.bodies {
-        sum = sum + isa.load(&block.q[dof]);
-    }
-    sum / (model.magnets().max(1) as f64)
-}
-
-/// Sets the targets of a controlled drive from actions in [−1, 1]. In the plane: place relative to the
-/// robot's centre now, height, travel speed. In space: place along the robot's heading and to its side, height,
-/// travel speed, yaw against its heading where the stage has it. Values beyond are clipped.
-pub fn command<R: Row>(
-    model: &Model,
-    drive: &DriveModel,
-    block: &mut Block<R>,
-    lane: usize,
-    action: &[f64],
-) {
-    let Path::Controlled(limits) = &drive.path else { return };
-    let action = |k: usize| action.get(k).map_or(0.0, |a| a.clamp(-1.0, 1.0));
-    let unit = |a: f64| 0.5 * (a + 1.0);
-    let size = limits.action_size(model.dimensions());
-    let along = action(0) * limits.reach_m;
-    let height = |a: f64| limits.lowest_m + unit(a) * (limits.highest_m - limits.lowest_m);
-    let targets = if model.dimensions() == 2 {
-        let speed = unit(action(2)) * limits.speed_m_s;
-        [block.centre_x(model, lane) + along, height(action(1)), speed, 0.0, 0.0]
-    } else {
-        let [x, z, heading] = block.robot_pose(model, lane);
-        let (sin, cos) = sin_cos(heading);
-        let aside = action(1) * limits.lateral_reach_m;
-        let yaw = heading + action(4) * limits.yaw_reach_rad;
-        // On the branch where the stage is, so that it never turns back by a whole turn.
-        let turns = ((block.stage[3][lane].f64() - yaw) / TAU).round();
-        let place =
-            [x + along * cos + aside * sin, height(action(2)), z + aside * cos - along * sin];
-        let speed = unit(action(3)) * limits.speed_m_s;
-        [place[0], place[1], place[2], yaw + turns * TAU, speed]
-    };
-    for (row, target) in block.target.iter_mut().zip(targets) {
-        row[lane] = R::Number::of(target);
-    }
-    for k in 0..size {
-        block.action[k][lane] = R::Number::of(action(k));
     }
 }

@@ -1,11 +1,11 @@
 //! Wrenches that act for several steps: they equal those that a step of their own computes and a hand holds, lane by lane.
 
+use magworm::actuate::command;
 use magworm::lanes::{InstructionSet, WIDE};
 use magworm::model::{Model, Phase};
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::scene::Scene;
 use magworm::state::{Batch, Block, LaneChoice, Status, Steps};
-use magworm::step::command;
 use std::sync::Arc;
 
 /// A preset with edits in TOML; an empty one takes a table out.
@@ -45,14 +45,13 @@ fn start(model: &Model, block: &mut Block<[f64; WIDE]>, lane: usize) {
 }
 
 fn act(model: &Model, block: &mut Block<[f64; WIDE]>, step: u32) {
-    let Some(drive) = &model.program.drive else { return };
     if !step.is_multiple_of(model.steps_per_control) {
         return;
     }
     for lane in 0..WIDE {
         let mut draws = Draws::new(lane as u64, 1000 + u64::from(step / 40));
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
-        command(model, drive, block, lane, &action);
+        command(model, block, lane, &action);
     }
 }
 

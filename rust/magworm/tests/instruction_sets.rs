@@ -2,12 +2,12 @@
 
 mod scenes;
 
+use magworm::actuate::command;
 use magworm::lanes::{InstructionSet, Number, Row, WIDE, WIDE_SINGLE};
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::scene::Precision;
 use magworm::state::{Block, Steps};
-use magworm::step::command;
 
 const CONTROL_STEPS: u64 = 60;
 
@@ -31,11 +31,10 @@ fn start<R: Row>(model: &Model, first: usize) -> Block<R> {
 
 /// New targets for the robots `first..`, where the scene takes any.
 fn act<R: Row>(model: &Model, block: &mut Block<R>, first: usize, control_step: u64) {
-    let Some(drive) = &model.program.drive else { return };
     for lane in 0..R::LANES {
         let mut draws = Draws::new((first + lane) as u64, 1000 + control_step / 4);
         let action: [f64; 5] = std::array::from_fn(|_| draws.uniform(-1.0, 1.0));
-        command(model, drive, block, lane, &action);
+        command(model, block, lane, &action);
     }
 }
 

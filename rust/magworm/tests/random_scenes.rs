@@ -37,7 +37,7 @@ fn numbers(batch: &Batch, environment: usize) -> Vec<f64> {
         }
         (0..model.nodes()).for_each(|node| seen.extend(view.node_m(node)));
         (0..model.contacts.len()).for_each(|contact| seen.extend(view.contact(contact)));
-        let magnets = model.program.drive.as_ref().map_or(0, |d| d.layout.offset_m.len());
+        let magnets = model.program.drive_magnets();
         (0..magnets).for_each(|magnet| seen.extend(view.drive_place(magnet).expect("a drive")));
         seen.extend(view.drive_velocity());
         seen.extend(view.robot_pose());

@@ -1,10 +1,10 @@
 //! Robots of a scene that act at random.
 
+use magworm::actuate::command;
 use magworm::lanes::Row;
 use magworm::model::Model;
 use magworm::reset::{Draws, reset, scene_start};
 use magworm::state::Block;
-use magworm::step::command;
 
 /// Control steps before anything is counted: the robots land and begin to crawl.
 pub const BEFORE: u64 = 15;
@@ -37,8 +37,7 @@ pub fn act<R: Row>(
     different: usize,
     control_step: u64,
 ) {
-    let Some(drive) = &model.program.drive else { return };
     for lane in 0..R::LANES {
-        command(model, drive, block, lane, &action((first + lane) % different, control_step));
+        command(model, block, lane, &action((first + lane) % different, control_step));
     }
 }

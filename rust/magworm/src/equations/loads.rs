@@ -1,7 +1,7 @@
 //! Impulses of gravity and magnets.
 
 use super::hold;
-use crate::drive::DriveModel;
+use crate::actuator::{Actuator, Layout, states};
 use crate::elastic;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Real};
@@ -36,18 +36,15 @@ pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
         Some(due) => due.any(),
         None => true,
     };
-    let robot = crate::step::robot_centre(isa, model, block);
-    let turn = if D == 3 { sin_cos(isa.load(&block.stage[3])) } else { (robot, robot) };
+    let sources = Sources::of::<D>(isa, model, block);
     for body in 0..model.magnets() {
         let dof = model.coordinates.bodies[body];
         let mut wrench = [isa.splat(0.0); WRENCH];
-        if let (true, Some(magnetics), Some(drive)) = (computes, &program.magnetics, &program.drive)
-        {
+        if let (true, Some(magnetics), Some(sources)) = (computes, &program.magnetics, &sources) {
             if D == 2 {
-                planar_wrench(isa, magnetics, drive, block, [body, dof], robot, &mut wrench);
+                planar_wrench(isa, magnetics, sources, block, [body, dof], &mut wrench);
             } else {
-                let place = [body, dof];
-                spatial_wrench(isa, magnetics, drive, block, place, robot, turn, &mut wrench);
+                spatial_wrench(isa, magnetics, sources, block, [body, dof], &mut wrench);
             }
         }
         if let Some(due) = due {
@@ -61,6 +58,33 @@ pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
             let entry = &mut block.right[dof + k];
             isa.store(isa.load(entry) + wrench[k] * dt, entry);
         }
+    }
+}
+
+/// The drive magnets of a block in a step.
+#[derive(Clone, Copy)]
+struct Sources<'a, I: Isa> {
+    layout: &'a Layout,
+    /// x of the robot's centre [m].
+    robot: I::F,
+    /// x, y, in space z of the stage [m].
+    stage: [I::F; 3],
+    /// Sine and cosine of its yaw in space.
+    yaw: (I::F, I::F),
+}
+
+impl<'a, I: Isa> Sources<'a, I> {
+    /// Those of the stage; none where a scene has none.
+    #[inline(always)]
+    fn of<const D: usize>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
+        let mut actuators = states(&model.program.actuators, &block.stage);
+        let (Actuator::Stage(stage), state) = actuators.next()?;
+        let at = |row: usize| isa.load(&state[row]);
+        let zero = isa.splat(0.0);
+        let yaw = if D == 3 { sin_cos(at(3)) } else { (zero, zero) };
+        let z = if D == 3 { at(2) } else { zero };
+        let robot = block.centre_x_of_lanes(isa, model);
+        Some(Self { layout: &stage.layout, robot, stage: [at(0), at(1), z], yaw })
     }
 }
 
@@ -94,20 +118,19 @@ fn uniform_torque<const D: usize, I: Isa>(
 fn planar_wrench<I: Isa>(
     isa: I,
     magnetics: &Magnetics,
-    drive: &DriveModel,
+    sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
     [body, dof]: [usize; 2],
-    robot: I::F,
     total: &mut [I::F; WRENCH],
 ) {
     let (x, y) = (isa.load(&block.q[dof]), isa.load(&block.q[dof + 1]));
     let cos = isa.load(&block.frame[2 * body]);
     let sin = isa.load(&block.frame[2 * body + 1]);
-    let (stage_x, stage_y) = (isa.load(&block.stage[0]), isa.load(&block.stage[1]));
+    let Sources { layout, robot, stage: [stage_x, stage_y, _], .. } = *sources;
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
     for pair in &magnetics.pairs[body] {
-        let dx = x - drive.layout.position(pair.source, stage_x, robot);
-        let strength = remanence * drive.layout.polarity[pair.source];
+        let dx = x - layout.position(pair.source, stage_x, robot);
+        let strength = remanence * layout.polarity[pair.source];
         let wrench = match &magnetics.models[pair.model] {
             PairModel::Cuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
             PairModel::Dipole(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
@@ -122,25 +145,22 @@ fn planar_wrench<I: Isa>(
 
 /// Force and torque of all drive magnets, which stand turned about the vertical by the stage's yaw.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)] // a kernel: a struct of arguments would be copied
 fn spatial_wrench<I: Isa>(
     isa: I,
     magnetics: &Magnetics,
-    drive: &DriveModel,
+    sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
     [body, dof]: [usize; 2],
-    robot: I::F,
-    (sin, cos): (I::F, I::F),
     total: &mut [I::F; WRENCH],
 ) {
-    let stage = [isa.load(&block.stage[0]), isa.load(&block.stage[1]), isa.load(&block.stage[2])];
+    let Sources { layout, robot, stage, yaw: (sin, cos) } = *sources;
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
     let mut axes = elastic::axes(isa, block, body);
     for k in 0..3 {
         axes[k] = turned(&axes[k], cos, -sin);
     }
     for pair in &magnetics.pairs[body] {
-        let [x, z] = drive.layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
+        let [x, z] = layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
         let offset = [
             isa.load(&block.q[dof]) - x,
             isa.load(&block.q[dof + 1]) - stage[1],
@@ -152,7 +172,7 @@ fn spatial_wrench<I: Isa>(
             PairModel::SpatialDipole(pair) => pair.wrench(&offset, &axes[1]),
             PairModel::Cuboid(_) | PairModel::Dipole(_) => continue,
         };
-        let strength = remanence * drive.layout.polarity[pair.source];
+        let strength = remanence * layout.polarity[pair.source];
         let force = turned(&[wrench[0], wrench[1], wrench[2]], cos, sin);
         let torque = turned(&[wrench[3], wrench[4], wrench[5]], cos, sin);
         for axis in 0..3 {

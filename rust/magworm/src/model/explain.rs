@@ -70,7 +70,7 @@ impl Model {
     }
 
     fn explain_drive(&self) -> String {
-        if self.program.drive.is_none() {
+        if self.program.actuators.is_empty() {
             return "left out: the scene has no [drive]".to_string();
         }
         let Some(magnetics) = &self.program.magnetics else {

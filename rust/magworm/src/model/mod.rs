@@ -21,7 +21,7 @@ pub use phases::Phase;
 pub use shape::Shape;
 pub use waves::Wave;
 
-use crate::drive::DriveModel;
+use crate::actuator::Actuator;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
@@ -73,8 +73,8 @@ pub struct Program {
     pub uniform_field: Option<UniformTorque>,
     /// Ground contact with friction.
     pub ground: Option<GroundLaw>,
-    /// The drive's motion.
-    pub drive: Option<DriveModel>,
+    /// What moves the sources of the field.
+    pub actuators: Vec<Actuator>,
 }
 
 /// Torque of a uniform field on the body magnets.
@@ -233,8 +233,18 @@ impl Program {
                 magnets: mesh.magnets.iter().map(|m| UniformField::new(m.cuboid())).collect(),
             }),
             ground: scene.ground.as_ref().map(|ground| ground_law(ground, scene, mesh)),
-            drive: scene.drive.as_ref().map(DriveModel::new),
+            actuators: Actuator::of(scene),
         }
+    }
+
+    /// Whether an actuator follows actions.
+    pub fn is_controlled(&self) -> bool {
+        self.actuators.iter().any(Actuator::is_controlled)
+    }
+
+    /// Number of the actuators' magnets.
+    pub fn drive_magnets(&self) -> usize {
+        self.actuators.iter().map(Actuator::magnets).sum()
     }
 }
 

@@ -27,7 +27,7 @@ pub enum Phase {
     Recovery,
     /// The new state, and whether it is sound.
     Commit,
-    /// Motion of the drive.
+    /// Motion of the actuators.
     Drive,
 }
 
@@ -66,7 +66,7 @@ impl Phase {
             (Self::Contact, touches),
             (Self::Recovery, touches),
             (Self::Commit, true),
-            (Self::Drive, program.drive.is_some()),
+            (Self::Drive, !program.actuators.is_empty()),
         ];
         phases.into_iter().filter(|(_, needed)| *needed).map(|(phase, _)| phase).collect()
     }

@@ -37,8 +37,7 @@ pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub(crate) use segments::Plan;
 pub use solver::{
-    Control, Curvature, MagnetModel, Parameter, Precision, Reset, Solver, Start,
-    Variation,
+    Control, Curvature, MagnetModel, Parameter, Precision, Reset, Solver, Start, Variation,
 };
 pub use surroundings::{Ground, MagneticTerms, UniformField};
 

@@ -1,8 +1,8 @@
 //! Environments of one model, one per lane.
 
 use super::rows::Rows;
+use crate::actuator::{ActuatorRows, Sizes};
 use crate::contact::Workspace;
-use crate::drive::stage_axes;
 use crate::equations::held_rows;
 use crate::lanes::Row;
 use crate::model::Model;
@@ -89,11 +89,11 @@ pub struct Block<R: Row> {
     pub pad: Rows<R>,
     /// State of each contact, see [`crate::contact::Mode`], shape [contacts].
     pub mode: Rows<R>,
-    /// Stage x, y, in space also z [m] and yaw [rad], then their velocities, shape [2 × axes].
+    /// What the actuators are at and how they move, one after the other, see [`crate::actuator`].
     pub stage: Rows<R>,
-    /// Targets of these axes, then the speed limit [m/s], shape [axes + 1].
+    /// What they are to reach.
     pub target: Rows<R>,
-    /// Last action, shape [action].
+    /// The action that said so, shape [action].
     pub action: Rows<R>,
     /// Solver steps since the reset, shape [1].
     pub step_count: Rows<R>,
@@ -157,7 +157,7 @@ impl<R: Row> Block<R> {
         let (dimensions, zeros) = (model.dimensions(), Rows::zeros);
         // Rows that only a robot in space has.
         let in_space = |rows| zeros(if dimensions == 3 { rows } else { 0 });
-        let (elements, axes) = (nodes - 1, stage_axes(dimensions));
+        let (elements, actuators) = (nodes - 1, Sizes::of(&model.program.actuators));
         let mut this = Self {
             q: zeros(unknowns),
             v: zeros(unknowns),
@@ -165,9 +165,9 @@ impl<R: Row> Block<R> {
             normal: zeros(contacts),
             pad: zeros((dimensions - 1) * contacts),
             mode: zeros(contacts),
-            stage: zeros(2 * axes),
-            target: zeros(axes + 1),
-            action: zeros(crate::observe::action_size(model)),
+            stage: zeros(actuators.state),
+            target: zeros(actuators.target),
+            action: zeros(actuators.action),
             step_count: zeros(1),
             factors: zeros(Model::PARAMETERS.len()),
             present: zeros(magnets),
@@ -194,6 +194,12 @@ impl<R: Row> Block<R> {
         };
         (0..R::LANES).for_each(|lane| crate::reset::rest(model, &mut this, lane));
         this
+    }
+
+    /// The rows of the actuators.
+    pub fn actuator_rows(&mut self) -> ActuatorRows<'_, R> {
+        let Self { stage, target, action, .. } = self;
+        ActuatorRows { state: stage, target, action }
     }
 
     /// The rows that change in time, in the order of a snapshot.

@@ -1,6 +1,7 @@
 //! One control step of a block: actions in, solver steps, what was seen out.
 
 use super::block::{Block, Status};
+use crate::actuate::command;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{
     InstructionSet, Isa, Row, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
@@ -8,7 +9,7 @@ use crate::lanes::{
 };
 use crate::model::{Model, Phase};
 use crate::observe;
-use crate::step::{advance, command, run_phase};
+use crate::step::{advance, run_phase};
 
 /// A block that knows how to step itself. Bits are those of any other instruction set.
 pub trait Steps: Send {
@@ -102,12 +103,12 @@ pub(super) fn control_block<R: Row>(
     Block<R>: Steps,
 {
     let count = rows.status.len();
-    if let Some(drive) = model.program.drive.as_ref().filter(|d| d.is_controlled()) {
+    if model.program.is_controlled() {
         let size = observe::action_size(model);
         for lane in 0..count {
             if block.status[lane] == Status::Running {
                 let action = &actions[size * (first + lane)..][..size];
-                command(model, drive, block, lane, action);
+                command(model, block, lane, action);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use crate::lanes::math::{atan2, sin_cos};
-use crate::lanes::{Number, Row};
+use crate::lanes::{Isa, Number, Row};
 use crate::model::{Anchor, Model};
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -102,6 +102,16 @@ impl<R: Row> Block<R> {
     /// x of the robot's centre in one lane [m]: mean of its magnets, or of its nodes where it has none.
     pub fn centre_x(&self, model: &Model, lane: usize) -> f64 {
         self.centre(model, 0, lane)
+    }
+
+    /// The same in every lane, 0 where a robot has no magnets.
+    #[inline(always)]
+    pub fn centre_x_of_lanes<I: Isa<Row = R>>(&self, isa: I, model: &Model) -> I::F {
+        let mut sum = isa.splat(0.0);
+        for &dof in &model.coordinates.bodies {
+            sum = sum + isa.load(&self.q[dof]);
+        }
+        sum / (model.magnets().max(1) as f64)
     }
 
     /// The robot seen from above in one lane: x, z of its centre [m], and its heading [rad].

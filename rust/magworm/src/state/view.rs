@@ -2,7 +2,7 @@
 
 use super::block::{Block, Status};
 use super::pose::{Pose, Twist};
-use crate::drive::stage_axes;
+use crate::actuator::{Actuator, Stage, states};
 use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::observe;
@@ -29,7 +29,7 @@ trait LaneView {
     fn velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist;
     fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
     fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
-    fn stage(&self, row: usize, lane: usize) -> f64;
+    fn actuators(&self, lane: usize) -> Vec<f64>;
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3];
     fn steps(&self, lane: usize) -> f64;
     fn status(&self, lane: usize) -> Status;
@@ -53,8 +53,8 @@ impl<R: Row> LaneView for Block<R> {
     fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
         Block::planar_velocity(self, model, magnet, lane)
     }
-    fn stage(&self, row: usize, lane: usize) -> f64 {
-        self.stage[row][lane].f64()
+    fn actuators(&self, lane: usize) -> Vec<f64> {
+        self.stage.iter().map(|row| row[lane].f64()).collect()
     }
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
         Block::robot_pose(self, model, lane)
@@ -108,21 +108,21 @@ impl View<'_> {
     }
     /// Centre of a drive magnet: x, y, in space also z [m] and yaw [rad]; none where the scene has no drive.
     pub fn drive_place(&self, drive_magnet: usize) -> Option<Vec<f64>> {
-        let layout = &self.model.program.drive.as_ref()?.layout;
-        let (x, y) = (self.stage(0), self.stage(1));
-        let robot = self.robot_pose()[0];
-        if self.model.dimensions() == 2 {
-            return Some(vec![layout.position(drive_magnet, x, robot), y]);
-        }
-        let (z, yaw) = (self.stage(2), self.stage(3));
-        let (sin, cos) = crate::lanes::math::sin_cos(yaw);
-        let [x, z] = layout.place(drive_magnet, x, z, robot, sin, cos);
-        Some(vec![x, y, z, yaw])
+        let (robot, state) = (self.robot_pose(), self.block.actuators(self.lane));
+        let place = |(actuator, state): (&Actuator, &[f64])| {
+            let place = |magnet| actuator.magnet_place(magnet, state, robot[0]);
+            (0..actuator.magnets()).map(place).collect::<Vec<_>>()
+        };
+        states(&self.model.program.actuators, &state).flat_map(place).nth(drive_magnet)
     }
     /// Velocity of the drive along x and y, in space also along z [m/s] and of its yaw [rad/s].
     pub fn drive_velocity(&self) -> Vec<f64> {
-        let axes = stage_axes(self.model.dimensions());
-        (axes..2 * axes).map(|row| self.stage(row)).collect()
+        let state = self.block.actuators(self.lane);
+        if state.is_empty() {
+            return vec![0.0; Stage::axes(self.model.dimensions())];
+        }
+        let velocity = |(actuator, state): (&Actuator, _)| actuator.velocity(state);
+        states(&self.model.program.actuators, &state).flat_map(velocity).collect()
     }
     /// Mode and normal impulse of a contact point in the last step, and what the spring of its pad holds along the
     /// ground [N·s].
@@ -151,9 +151,5 @@ impl View<'_> {
     /// Writes the observation.
     pub fn observe(&self, row: &mut [f32]) {
         self.block.observe(self.model, self.lane, row);
-    }
-
-    fn stage(&self, row: usize) -> f64 {
-        self.block.stage(row, self.lane)
     }
 }

@@ -39,8 +39,7 @@ fn precision(scene: &Scene) -> Result<(), Problem> {
     let single = solver.precision == Precision::Single;
     let long = !solver.integrator.is_explicit() && solver.step_s >= SHORTEST_SINGLE_STEP_S;
     require(!single || long, "solver.precision", "\"single\"".into(), || {
-        let (explicit, shortest) =
-            (Integrator::names(true), quantity(SHORTEST_SINGLE_STEP_S, "s"));
+        let (explicit, shortest) = (Integrator::names(true), quantity(SHORTEST_SINGLE_STEP_S, "s"));
         format!(
             "\"double\" with {explicit} and with steps below {shortest}, which move less than single precision tells apart"
         )

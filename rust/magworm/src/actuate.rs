@@ -1,0 +1,41 @@
+//! The actuators of a block: where they start, what an action tells them, how they move in a step.
+
+use crate::actuator::{Clock, each};
+use crate::draws::Draws;
+use crate::lanes::{Isa, Real, Row};
+use crate::model::Model;
+use crate::scene::Parameter;
+use crate::state::Block;
+
+/// Puts the actuators of one lane where they start, around the robot that lies there.
+pub fn place<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, draws: &mut Draws) {
+    let robot = block.robot_pose(model, lane);
+    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+        let draws = model.scene.reset.random_drive.then_some(&mut *draws);
+        actuator.place(rows, lane, robot, draws);
+    }
+}
+
+/// Sets the targets of one lane from an action, to each actuator its own part. What is missing counts as 0.
+pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut action: &[f64]) {
+    let robot = block.robot_pose(model, lane);
+    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+        let (own, rest) = action.split_at(rows.action.len().min(action.len()));
+        actuator.command(rows, lane, robot, own);
+        action = rest;
+    }
+}
+
+/// Moves the actuators to where they are at the end of a step.
+#[inline(always)]
+pub fn advance<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let clock = Clock {
+        time_s: isa.load(&block.step_count[0]) * model.step_s,
+        step_s: model.step_s,
+        speed_factor: isa.load(&block.factors[Parameter::DriveSpeed as usize]),
+        running: isa.load(&block.running[0]).eq(isa.splat(1.0)),
+    };
+    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+        actuator.advance::<D, I>(isa, rows, clock);
+    }
+}

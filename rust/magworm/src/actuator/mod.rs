@@ -1,0 +1,146 @@
+//! Actuators: what moves the sources of the field, and how a controller commands it.
+//!
+//! An actuator declares its part of an action and of an observation, how many rows of a block it needs, where it starts,
+//! what a command sets, how it moves in a step, and where its magnets are. It knows its rows and is told where the
+//! robot is; it knows neither model nor block. A scene has a list of them.
+
+mod axis;
+mod layout;
+mod path;
+mod rows;
+mod stage;
+
+pub use layout::Layout;
+pub use rows::{ActuatorRows, Clock, Sizes, each, states};
+pub use stage::Stage;
+
+use crate::draws::Draws;
+use crate::lanes::{Isa, Row};
+use crate::scene::Scene;
+use crate::specification::{Observation, Outlook, Scales, Specification};
+
+/// One actuator. Each kind has a file.
+#[derive(Clone, Debug)]
+pub enum Actuator {
+    /// Magnets on a stage.
+    Stage(Stage),
+}
+
+impl Actuator {
+    /// The actuators of a scene.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let stage = scene.drive.as_ref().map(|drive| Stage::new(drive, scene.dimensions));
+        stage.map(Self::Stage).into_iter().collect()
+    }
+
+    /// How many rows of a block it needs.
+    pub fn sizes(&self) -> Sizes {
+        match self {
+            Self::Stage(stage) => stage.sizes(),
+        }
+    }
+
+    /// Whether it follows actions.
+    pub fn is_controlled(&self) -> bool {
+        match self {
+            Self::Stage(stage) => stage.limits().is_some(),
+        }
+    }
+
+    /// Number of magnets.
+    pub fn magnets(&self) -> usize {
+        match self {
+            Self::Stage(stage) => stage.layout.offset_m.len(),
+        }
+    }
+
+    /// Where a magnet is in one lane, for a robot whose centre is at x [m]: x, y, in space also z [m] and yaw [rad].
+    pub fn magnet_place(&self, magnet: usize, state: &[f64], robot_x: f64) -> Vec<f64> {
+        match self {
+            Self::Stage(stage) => stage.magnet_place(magnet, state, robot_x),
+        }
+    }
+
+    /// Velocities of its axes in one lane [m/s, rad/s].
+    pub fn velocity(&self, state: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Stage(stage) => stage.velocity(state),
+        }
+    }
+
+    /// Its greatest speed under control [m/s].
+    pub fn speed_m_s(&self) -> Option<f64> {
+        match self {
+            Self::Stage(stage) => stage.limits().map(|limits| limits.speed_m_s),
+        }
+    }
+
+    /// Its components of an action, in order.
+    pub fn action(&self) -> Vec<Specification> {
+        match self {
+            Self::Stage(stage) => stage.action(),
+        }
+    }
+
+    /// Its components of an observation, in order.
+    pub fn observation(&self, scales: &Scales) -> Vec<Specification> {
+        match self {
+            Self::Stage(stage) => stage.observation(scales),
+        }
+    }
+
+    /// Writes its part of the observation of one lane.
+    pub fn observe<R: Row>(
+        &self,
+        state: &[R],
+        lane: usize,
+        from: &Outlook,
+        scales: &Scales,
+        out: &mut Observation<'_>,
+    ) {
+        match self {
+            Self::Stage(stage) => stage.observe(state, lane, from, scales, out),
+        }
+    }
+
+    /// Puts it where it starts in one lane, at rest: by its motion, or at a place drawn at random within its limits.
+    /// `robot`: x, z of its centre [m] and heading [rad].
+    pub fn place<R: Row>(
+        &self,
+        rows: ActuatorRows<'_, R>,
+        lane: usize,
+        robot: [f64; 3],
+        draws: Option<&mut Draws>,
+    ) {
+        match self {
+            Self::Stage(stage) => stage.place(rows, lane, robot, draws),
+        }
+    }
+
+    /// Sets its targets in one lane from its part of an action, whose components are clipped to [−1, 1]; those that are
+    /// missing count as 0. `robot`: x, z of its centre [m] and heading [rad].
+    pub fn command<R: Row>(
+        &self,
+        rows: ActuatorRows<'_, R>,
+        lane: usize,
+        robot: [f64; 3],
+        action: &[f64],
+    ) {
+        match self {
+            Self::Stage(stage) => stage.command(rows, lane, robot, action),
+        }
+    }
+
+    /// Moves it to where it is at the end of a step.
+    #[inline(always)]
+    pub fn advance<const D: usize, I: Isa>(
+        &self,
+        isa: I,
+        rows: ActuatorRows<'_, I::Row>,
+        clock: Clock<I>,
+    ) {
+        match self {
+            Self::Stage(stage) => stage.advance::<D, I>(isa, rows, clock),
+        }
+    }
+}
