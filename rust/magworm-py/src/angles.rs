@@ -1,7 +1,7 @@
 //! Angles with equal bits on every platform, for what a task decides.
 
 use crate::errors::value_error;
-use magworm::lanes::math;
+use magworm::internals::lanes::math;
 use numpy::ndarray::Zip;
 use numpy::{IntoPyArray, PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;

@@ -5,11 +5,8 @@ use crate::errors::value_error;
 use crate::rollout::{Trajectories, rollout};
 use crate::scene::Scene;
 use crate::specification::specifications;
-use magworm::model::Model;
-use magworm::observe;
-use magworm::reset::StartPose;
 use magworm::scene::Parameter;
-use magworm::state::{self, LaneChoice, Status, StepOutput, View};
+use magworm::{LaneChoice, Model, StartPose, Status, StepOutput, View, observe};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -17,7 +14,7 @@ use pyo3::types::{PyBytes, PyDict};
 /// N environments of one scene, advanced together.
 #[pyclass(module = "magworm_gym._magworm")]
 pub struct Batch {
-    batch: state::Batch,
+    batch: magworm::Batch,
     threads: Option<usize>,
 }
 
@@ -45,7 +42,7 @@ impl Batch {
             return Err(value_error("threads is out of range; allowed: None, or 1 to 4096"));
         }
         Ok(Self {
-            batch: state::Batch::new(scene.model.clone(), num_envs, lanes, threads),
+            batch: magworm::Batch::new(scene.model.clone(), num_envs, lanes, threads),
             threads,
         })
     }

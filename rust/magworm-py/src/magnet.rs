@@ -2,7 +2,7 @@
 
 use crate::arrays::read;
 use crate::errors::value_error;
-use magworm::magnetic::{MAX_ORDER, Magnet, Wrench, dipole_wrench, field_t, wrench};
+use magworm::internals::magnetic::{MAX_ORDER, Magnet, Wrench, dipole_wrench, field_t, wrench};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;

@@ -2,8 +2,8 @@
 
 use crate::errors::value_error;
 use crate::scene::Scene;
-use magworm::model::Model;
-use magworm::record::{Recording, Watch, record};
+use magworm::Model;
+use magworm::internals::{Recording, Watch, record};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -2,8 +2,7 @@
 
 use crate::arrays::read;
 use crate::errors::value_error;
-use magworm::observe;
-use magworm::state::{Batch, Plan, RolloutOutput};
+use magworm::{Batch, Plan, RolloutOutput, observe};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArray4, PyArrayMethods};
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;

@@ -1,9 +1,9 @@
 //! `Scene` for Python.
 
 use crate::errors::{scene_error, value_error};
-use magworm::model::Model;
-use magworm::scene::{self, Motion};
-use magworm::share;
+use magworm::internals::share;
+use magworm::scene::Motion;
+use magworm::{Model, scene};
 use pyo3::prelude::*;
 use pyo3::types::{
     PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString, PyTuple,

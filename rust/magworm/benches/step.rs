@@ -3,11 +3,9 @@
 //! Prints environment steps per second of one thread and of all, the work counters per solver step, and
 //! the ratio of wide to scalar: the median of several repetitions.
 
-use magworm::model::Model;
-use magworm::observe;
-use magworm::reset::Draws;
+use magworm::internals::Draws;
 use magworm::scene::Scene;
-use magworm::state::{Batch, LaneChoice, StepOutput};
+use magworm::{Batch, LaneChoice, Model, StepOutput, observe};
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -4,8 +4,8 @@
 //! Time: the best of many repetitions over a sweep of poses. Error: the largest over the sweep,
 //! relative to the largest force and torque of the sweep, against order 10.
 
-use magworm::lanes::{Isa, WIDE, WideTask, run_wide};
-use magworm::magnetic::{Cuboid, PlanarDipole, PlanarPair};
+use magworm::internals::lanes::{Isa, WIDE, WideTask, run_wide};
+use magworm::internals::magnetic::{Cuboid, PlanarDipole, PlanarPair};
 use std::hint::black_box;
 use std::time::Instant;
 

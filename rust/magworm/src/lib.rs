@@ -1,43 +1,88 @@
 //! Batched simulator of magnet-driven soft worms (MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167).
 //!
-//! `Scene` (what a person writes) → [`model::Model`] (compiled, shared) → [`state::Block`] (the state of
-//! environments, one per lane) → [`step`] → [`observe`]. A [`state::Batch`] holds many blocks and runs
-//! them on all cores.
+//! [`Scene`] (what a person writes) → [`Model`] (compiled, shared) → [`Batch`] (environments of one model, advanced on all
+//! cores) → [`View`] (one environment, looked at). What an agent sees and does is declared in [`observe`].
 //!
-//! | module | what it holds |
-//! |---|---|
-//! | [`integrate`] | the coefficients of the integrators |
-//! | [`scene`] | what a person writes; validation |
-//! | [`model`] | mesh, unknowns, springs, masses, the program of terms |
-//! | [`state`] | blocks, batches, snapshots |
-//! | [`lanes`] | vectors of environments, elementary functions, banded systems |
-//! | [`elastic`] | kinematics, stretching and bending of the rod |
-//! | [`magnetic`] | field of a cuboid, wrench between cuboids, dipoles |
-//! | [`contact`] | ground contact and friction |
-//! | [`actuator`] | what moves the drive magnets: action, observation, motion |
-//! | [`equations`] | the equations of one step |
-//! | [`step`] | a step as a table of contents |
-//! | [`record`] | many scenes, each run once and watched |
-//! | [`share`] | what each phase of a step costs |
-//! | [`observe`], [`reset`] | observations and actions; initial states |
+//! ```
+//! use magworm::{Batch, LaneChoice, Model, scene::Scene};
+//! use std::sync::Arc;
+//!
+//! # fn main() -> Result<(), magworm::scene::SceneError> {
+//! let model = Arc::new(Model::compile(&Scene::preset("paper-3")?)?);
+//! let mut batch = Batch::new(model, 8, LaneChoice::Wide, Some(1));
+//! (0..8).for_each(|environment| batch.reset(environment, 0, environment as u64, None));
+//! batch.advance(10);
+//! let place = batch.view(0, |view| view.magnet_pose(0));
+//! assert!(place.iter().all(|number| number.is_finite()));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! How it is built, and which module may name which: ARCHITECTURE.md.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-pub mod actuate;
-pub mod actuator;
-pub mod contact;
-pub mod draws;
-pub mod elastic;
-pub mod equations;
-pub mod integrate;
-pub mod lanes;
-pub mod magnetic;
-pub mod model;
+mod actuate;
+mod actuator;
+mod batch;
+mod contact;
+mod draws;
+mod elastic;
+mod equations;
+mod integrate;
+mod lanes;
+mod magnetic;
+mod model;
 pub mod observe;
-pub mod record;
-pub mod reset;
+mod record;
+mod reset;
 pub mod scene;
-pub mod share;
-pub mod specification;
-pub mod state;
-pub mod step;
+mod share;
+mod specification;
+mod state;
+mod step;
+
+pub use batch::{Batch, LaneChoice, Plan, RolloutOutput, SnapshotError, StepOutput, View};
+pub use model::Model;
+pub use reset::StartPose;
+pub use scene::Scene;
+pub use state::{Counters, Pose, Status, Twist};
+
+/// What the tests, benches and programs of this project look into. No part of the face: it changes without notice.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::actuate::command;
+    pub use crate::contact::Mode;
+    pub use crate::draws::Draws;
+    pub use crate::elastic::kinematics;
+    pub use crate::model::{Anchor, PairModel, Phase, Sole, Wave};
+    pub use crate::record::{Recording, Watch, record};
+    pub use crate::reset::{reset, scene_start};
+    pub use crate::state::{Block, Rows};
+    pub use crate::step::{Steps, advance, run_phase};
+
+    pub mod equations {
+        pub use crate::equations::{gravity, inertia, magnets, springs};
+    }
+
+    pub mod lanes {
+        pub use crate::lanes::{
+            InstructionSet, Isa, Mask, Number, Real, Row, Scalar, WIDE, WIDE_SINGLE, WideTask,
+            run_wide, run_wide_on,
+        };
+        pub mod math {
+            pub use crate::lanes::math::{atan2, sin_cos};
+        }
+    }
+
+    pub mod magnetic {
+        pub use crate::magnetic::{
+            Cuboid, MAX_ORDER, MU_0, Magnet, PlanarDipole, PlanarPair, Wrench, dipole_wrench,
+            field_t, wrench,
+        };
+    }
+
+    pub mod share {
+        pub use crate::share::{explain, shares};
+    }
+}

@@ -3,8 +3,9 @@
 //! For fits, sweeps and figures, where the scenes differ in what a batch shares (sizes, motion, mesh).
 //! Scenes run side by side on all cores, one environment each.
 
+use crate::batch::{Batch, LaneChoice, Pool, View};
 use crate::model::Model;
-use crate::state::{Batch, LaneChoice, Pool, Status, View};
+use crate::state::Status;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::sync::Arc;
 

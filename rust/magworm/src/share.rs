@@ -8,7 +8,8 @@ use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::{Model, Phase};
 use crate::reset::{Draws, reset, scene_start};
 use crate::scene::Precision;
-use crate::state::{Block, Steps};
+use crate::state::Block;
+use crate::step::Steps;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,9 @@
 //! One solver step of a block: its phases in their order, and the commit.
 
+mod steps;
+
+pub use steps::Steps;
+
 use crate::actuate;
 use crate::contact;
 use crate::elastic;

@@ -2,11 +2,9 @@
 
 mod scenes;
 
-use magworm::lanes::{Row, Scalar, WIDE};
-use magworm::model::Model;
-use magworm::reset::{Draws, reset, scene_start};
-use magworm::state::{Block, Status, Steps};
-use magworm::step::advance;
+use magworm::internals::lanes::{Row, Scalar, WIDE};
+use magworm::internals::{Block, Draws, Steps, advance, reset, scene_start};
+use magworm::{Model, Status};
 
 const SCENES: [&str; 4] = ["three magnets", "three magnets in space", "multipliers", "incline"];
 
@@ -44,7 +42,7 @@ fn a_falling_robot_has_equal_bits_alone_and_beside_robots_that_lie() {
         (0..WIDE).for_each(|lane| drop_from(&model, &mut together, lane, height_m(lane)));
         let mut alone: Vec<Block<[f64; 1]>> = (0..WIDE).map(|_| Block::new(&model)).collect();
         (0..WIDE).for_each(|lane| drop_from(&model, &mut alone[lane], 0, height_m(lane)));
-        let set = magworm::lanes::InstructionSet::widest();
+        let set = magworm::internals::lanes::InstructionSet::widest();
         let mut flew_beside_one_that_lay = 0;
         for step in 0..steps {
             together.advance_on(set, &model, 1);
@@ -73,7 +71,7 @@ fn a_block_in_the_air_solves_one_system_a_step() {
         let model = scenes::model(name);
         let mut block = Block::<[f64; WIDE]>::new(&model);
         (0..WIDE).for_each(|lane| drop_from(&model, &mut block, lane, 1.0));
-        block.advance_on(magworm::lanes::InstructionSet::widest(), &model, 50);
+        block.advance_on(magworm::internals::lanes::InstructionSet::widest(), &model, 50);
         let work = block.counters;
         assert_eq!((work.steps, work.factorisations, work.trials), (50, 50, 0), "{name}");
     }

@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use magworm::state::{Batch, LaneChoice, Status, StepOutput};
+use magworm::{Batch, LaneChoice, Status, StepOutput};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 

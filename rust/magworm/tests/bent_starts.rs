@@ -1,12 +1,9 @@
 //! Bodies that start bent: the strains that were asked for, the places that follow, and nothing new where they are straight.
 
-use magworm::elastic::kinematics;
-use magworm::lanes::Scalar;
-use magworm::model::Model;
-use magworm::reset::{Draws, StartPose, reset, scene_start};
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Block, Draws, advance, kinematics, reset, scene_start};
 use magworm::scene::Scene;
-use magworm::state::{Block, Status};
-use magworm::step::advance;
+use magworm::{Model, StartPose, Status};
 use nalgebra::Vector3;
 
 type Vector = Vector3<f64>;

@@ -4,10 +4,9 @@ mod bits_world;
 mod scenes;
 
 use bits_world::{Record, World, run};
-use magworm::contact::Mode;
-use magworm::model::Model;
-use magworm::state::LaneChoice::{self, Scalar, Wide};
-use magworm::state::Status;
+use magworm::LaneChoice::{Scalar, Wide};
+use magworm::internals::Mode;
+use magworm::{LaneChoice, Model, Status};
 use scenes::{SCENES, model};
 use std::sync::Arc;
 

@@ -4,12 +4,10 @@
 //! A scene beyond the limit is refused, so the rods here are written a hundred times too soft, which the limit of the
 //! scene allows, and stiffened by the environment's own factor, which no rule looks at.
 
-use magworm::lanes::Scalar;
-use magworm::model::{Model, Wave};
-use magworm::reset::{Draws, reset, scene_start};
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Block, Draws, Wave, advance, reset, scene_start};
 use magworm::scene::{Integrator, Parameter, Scene};
-use magworm::state::{Block, Status};
-use magworm::step::advance;
+use magworm::{Model, Status};
 
 const ROD: &str = r#"
 gravity_m_s2 = 0.0

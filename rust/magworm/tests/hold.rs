@@ -1,11 +1,9 @@
 //! Wrenches that act for several steps: they equal those that a step of their own computes and a hand holds, lane by lane.
 
-use magworm::actuate::command;
-use magworm::lanes::{InstructionSet, WIDE};
-use magworm::model::{Model, Phase};
-use magworm::reset::{Draws, reset, scene_start};
+use magworm::internals::lanes::{InstructionSet, WIDE};
+use magworm::internals::{Block, Draws, Phase, Steps, command, reset, scene_start};
 use magworm::scene::Scene;
-use magworm::state::{Batch, Block, LaneChoice, Status, Steps};
+use magworm::{Batch, LaneChoice, Model, Status};
 use std::sync::Arc;
 
 /// A preset with edits in TOML; an empty one takes a table out.

@@ -2,12 +2,10 @@
 
 mod scenes;
 
-use magworm::actuate::command;
-use magworm::lanes::{InstructionSet, Number, Row, WIDE, WIDE_SINGLE};
-use magworm::model::Model;
-use magworm::reset::{Draws, reset, scene_start};
+use magworm::Model;
+use magworm::internals::lanes::{InstructionSet, Number, Row, WIDE, WIDE_SINGLE};
+use magworm::internals::{Block, Draws, Steps, command, reset, scene_start};
 use magworm::scene::Precision;
-use magworm::state::{Block, Steps};
 
 const CONTROL_STEPS: u64 = 60;
 

@@ -7,10 +7,9 @@
 mod scene_extreme;
 mod scene_strategy;
 
-use magworm::model::Model;
-use magworm::reset::Draws;
+use magworm::internals::Draws;
 use magworm::scene::{Body, Scene};
-use magworm::state::{Batch, LaneChoice, Status, StepOutput};
+use magworm::{Batch, LaneChoice, Model, Status, StepOutput};
 use proptest::prelude::*;
 use std::sync::Arc;
 

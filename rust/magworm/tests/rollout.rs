@@ -4,11 +4,9 @@ mod bits_world;
 mod scenes;
 
 use bits_world::{MISHAP, Record, World, run};
-use magworm::model::Model;
-use magworm::observe;
-use magworm::reset::Draws;
-use magworm::state::LaneChoice::{self, Scalar, Wide};
-use magworm::state::{Batch, Plan, RolloutOutput, Status, StepOutput};
+use magworm::LaneChoice::{Scalar, Wide};
+use magworm::internals::Draws;
+use magworm::{Batch, LaneChoice, Model, Plan, RolloutOutput, Status, StepOutput, observe};
 use scenes::model;
 use std::sync::Arc;
 

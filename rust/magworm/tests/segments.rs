@@ -1,8 +1,7 @@
 //! Bodies of segments: how they are meshed, changed one by one, and refused.
 
-use magworm::model::Model;
 use magworm::scene::{Body, Scene};
-use magworm::state::{Batch, LaneChoice, Status};
+use magworm::{Batch, LaneChoice, Model, Status};
 use std::sync::Arc;
 
 /// Three magnets of three sizes in feet of three sections, one on a bridge that is wider at its middle.
@@ -90,7 +89,7 @@ fn a_magnet_moves_within_its_foot_and_the_foot_stays() {
         let magnet = mesh.magnets[1];
         let middle_m = 0.5 * (mesh.arc_m[magnet.element] + mesh.arc_m[magnet.element + 1]);
         let places = mesh.soles.iter().filter_map(|sole| match *sole {
-            magworm::model::Sole::Foot { body: 1, along_m, .. } => Some(middle_m + along_m),
+            magworm::internals::Sole::Foot { body: 1, along_m, .. } => Some(middle_m + along_m),
             _ => None,
         });
         places.collect::<Vec<_>>()

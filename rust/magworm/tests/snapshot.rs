@@ -4,9 +4,8 @@ mod bits_world;
 mod scenes;
 
 use bits_world::{MISHAP, Record, World, run};
-use magworm::model::Model;
-use magworm::state::LaneChoice::{self, Scalar, Wide};
-use magworm::state::SnapshotError;
+use magworm::LaneChoice::{Scalar, Wide};
+use magworm::{LaneChoice, Model, SnapshotError};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use scenes::{SCENES, model};

@@ -1,6 +1,6 @@
 //! The tasks: a scene, and what is done with it.
 
-use magworm::model::Model;
+use magworm::Model;
 use magworm::scene::Scene;
 
 /// What is counted.

@@ -15,11 +15,10 @@ mod robots;
 mod wrench;
 
 use cases::{CASES, Case, Work};
-use magworm::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
-use magworm::model::{Model, Phase};
-use magworm::observe;
+use magworm::internals::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
+use magworm::internals::{Block, Phase, Steps};
 use magworm::scene::Precision;
-use magworm::state::{Batch, Block, LaneChoice, StepOutput, Steps};
+use magworm::{Batch, LaneChoice, Model, StepOutput, observe};
 use robots::{BEFORE, CONTROL_STEPS, act, action, start};
 use std::process::ExitCode;
 use std::sync::Arc;

@@ -1,10 +1,8 @@
 //! Robots of a scene that act at random.
 
-use magworm::actuate::command;
-use magworm::lanes::Row;
-use magworm::model::Model;
-use magworm::reset::{Draws, reset, scene_start};
-use magworm::state::Block;
+use magworm::Model;
+use magworm::internals::lanes::Row;
+use magworm::internals::{Block, Draws, command, reset, scene_start};
 
 /// Control steps before anything is counted: the robots land and begin to crawl.
 pub const BEFORE: u64 = 15;

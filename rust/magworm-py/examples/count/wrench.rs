@@ -1,9 +1,10 @@
 //! Wrenches of a drive magnet on eight body magnets at once.
 
 use crate::counted;
-use magworm::lanes::math::sin_cos;
-use magworm::lanes::{InstructionSet, Isa, WIDE, WideTask, run_wide_on};
-use magworm::model::{Model, PairModel};
+use magworm::Model;
+use magworm::internals::PairModel;
+use magworm::internals::lanes::math::sin_cos;
+use magworm::internals::lanes::{InstructionSet, Isa, WIDE, WideTask, run_wide_on};
 use std::hint::black_box;
 
 const ROWS: usize = 64;

@@ -1,8 +1,8 @@
 //! What one core does at best: arithmetic on eight lanes by kind, in chains that wait for nothing of each other and in
 //! one that does, on each instruction set; the passage through memory; and the clock.
 
-use magworm::lanes::{InstructionSet, Isa, Real, WIDE, WideTask, run_wide_on};
-use magworm::state::Rows;
+use magworm::internals::Rows;
+use magworm::internals::lanes::{InstructionSet, Isa, Real, WIDE, WideTask, run_wide_on};
 use std::hint::black_box;
 use std::time::Instant;
 

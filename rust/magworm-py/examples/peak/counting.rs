@@ -4,7 +4,7 @@
 //! Chains go through memory: what is stored at a place and loaded from there goes on. Not followed are rows that are
 //! copied without being loaded, a handful a step, and what a branch waits for, since branches are predicted.
 
-use magworm::lanes::{Isa, Mask, Real, Row};
+use magworm::internals::lanes::{Isa, Mask, Real, Row};
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 use std::marker::PhantomData;

@@ -18,7 +18,7 @@ mod steps;
 mod twin;
 
 use counting::KINDS;
-use magworm::model::Model;
+use magworm::Model;
 use magworm::scene::Scene;
 use std::process::ExitCode;
 

@@ -3,10 +3,9 @@
 use crate::counting::{Counting, KINDS, Tally, tallied};
 use crate::robots::{BEFORE, CONTROL_STEPS, act, start};
 use crate::twin::{TWIN, Twin};
-use magworm::lanes::{InstructionSet, Isa, Row, Scalar, WIDE, WideTask, run_wide_on};
-use magworm::model::Model;
-use magworm::state::{Block, Counters, Steps};
-use magworm::step::{advance, run_phase};
+use magworm::internals::lanes::{InstructionSet, Isa, Row, Scalar, WIDE, WideTask, run_wide_on};
+use magworm::internals::{Block, Steps, advance, run_phase};
+use magworm::{Counters, Model};
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 

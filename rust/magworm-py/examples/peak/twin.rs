@@ -1,7 +1,7 @@
 //! Sixteen lanes as two vectors of eight: every kernel does its work for two blocks, operation by operation, so that
 //! each chain of operations that wait for each other has a second one beside it that waits for nothing of the first.
 
-use magworm::lanes::{Isa, Mask, Real, WIDE};
+use magworm::internals::lanes::{Isa, Mask, Real, WIDE};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// Lanes of two vectors.

@@ -22,7 +22,7 @@ pub use frames::{axes, turn};
 pub use kinematics::update as kinematics;
 pub use stretch::assemble as stretch;
 pub use twist::assemble as bend_and_twist;
-pub use vector::{cross, dot};
+pub use vector::cross;
 
 use crate::integrate::Coefficients;
 use crate::lanes::{Isa, Real};

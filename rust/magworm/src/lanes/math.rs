@@ -6,13 +6,12 @@
 //!
 //! | function | largest error measured | arguments |
 //! |---|---|---|
-//! | [`ln`] | 1 ulp | positive normal |
 //! | [`ln_ratio`] | 2.2e-16 of the larger of 1 and the result | positive normal |
 //! | [`atan`], [`atan2`] | 2 ulp | finite |
 //! | [`sin_cos`] | 1 ulp | magnitude up to 1000 rad |
 //!
 //! The errors are distances to the platform's correctly rounded results over a million samples. In single precision the
-//! same polynomials are rounded to `f32`: ln 1 ulp, ln_ratio 1.8e-7, atan2 2 ulp, sine and cosine 1 ulp up to 30 rad.
+//! same polynomials are rounded to `f32`: ln_ratio 1.8e-7, atan2 2 ulp, sine and cosine 1 ulp up to 30 rad.
 
 use super::{Number, Real};
 
@@ -98,22 +97,6 @@ pub fn ln_ratio<F: Real>(p: F, q: F) -> F {
 #[inline(always)]
 pub fn round<F: Real>(x: F) -> F {
     x + F::Number::ROUND - F::Number::ROUND
-}
-
-/// Natural logarithm of a positive normal number.
-#[inline(always)]
-pub fn ln<F: Real>(x: F) -> F {
-    let (m, e) = x.mantissa_exponent();
-    let high = m.gt(x.splat(std::f64::consts::SQRT_2));
-    let f = F::select(high, m * 0.5, m) - 1.0;
-    let e = F::select(high, e + 1.0, e);
-    // ln(1+f) = f − (f²/2 − s (f²/2 + R)): the exact f carries the leading digits.
-    let s = f / (f + 2.0);
-    let z = s * s;
-    let half_square = f * f * 0.5;
-    let remainder = z * polynomial(z, &ARTANH);
-    let correction = half_square - (s * (half_square + remainder) + e * F::Number::LN_2[1]);
-    e * F::Number::LN_2[0] + (f - correction)
 }
 
 /// Angle of the vector (x, y) in [−π, π], for finite `y` and `x`.

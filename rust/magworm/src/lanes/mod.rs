@@ -26,10 +26,7 @@ pub use number::Number;
 pub use row::Row;
 pub use scalar::{Scalar, ScalarSingle};
 pub use single::Single;
-pub use wide::{
-    InstructionSet, WIDE, WIDE_SINGLE, Wide, WideSingle, WideTask, run_single_on, run_wide,
-    run_wide_on,
-};
+pub use wide::{InstructionSet, WIDE, WIDE_SINGLE, WideTask, run_single_on, run_wide, run_wide_on};
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 

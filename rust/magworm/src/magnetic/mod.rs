@@ -28,8 +28,8 @@ mod tests;
 mod uniform;
 mod wrench;
 
-pub use cuboid::{field, field_t, unit_field, unit_field_outside};
-pub use dipole::{PlanarDipole, SpatialDipole, dipole_field_t, dipole_wrench};
+pub use cuboid::field_t;
+pub use dipole::{PlanarDipole, SpatialDipole, dipole_wrench};
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
 pub use uniform::UniformField;

@@ -35,10 +35,6 @@ impl GaussLegendre {
         GaussLegendre { order, nodes, weights }
     }
 
-    /// Number of nodes.
-    pub fn order(&self) -> usize {
-        self.order
-    }
     /// Nodes in [−1, 1], ascending.
     #[inline(always)]
     pub fn nodes(&self) -> &[f64] {

@@ -1,5 +1,7 @@
 //! Properties of field and wrench: Maxwell's equations, symmetry, far field, equal bits.
 
+use super::cuboid::{field, unit_field, unit_field_outside};
+use super::dipole::dipole_field_t;
 use super::*;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, WIDE, WideTask, run_wide};

@@ -13,9 +13,8 @@ pub(crate) mod shape;
 mod waves;
 
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
-pub use explicit_limit::ExplicitLimit;
 pub use inertia::MassPart;
-pub use magnetics::{MagneticPair, Magnetics, PairModel};
+pub use magnetics::{Magnetics, PairModel};
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use phases::Phase;
 pub use shape::Shape;

@@ -7,9 +7,8 @@ mod record;
 
 pub use record::Record;
 
-use magworm::model::Model;
-use magworm::reset::{Draws, StartPose};
-use magworm::state::{Batch, LaneChoice, StepOutput};
+use magworm::internals::Draws;
+use magworm::{Batch, LaneChoice, Model, StartPose, StepOutput};
 use std::sync::Arc;
 
 /// Control step in which some robots fare ill.

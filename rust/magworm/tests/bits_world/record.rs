@@ -1,7 +1,6 @@
 //! Named bits.
 
-use magworm::model::Model;
-use magworm::state::View;
+use magworm::{Model, View};
 
 /// What can be seen of one environment after a control step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

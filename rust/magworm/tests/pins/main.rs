@@ -9,10 +9,9 @@ mod hash;
 mod robots;
 mod table;
 
-use magworm::model::Model;
+use magworm::LaneChoice::{Scalar, Wide};
 use magworm::scene::Scene;
-use magworm::state::LaneChoice::{self, Scalar, Wide};
-use magworm::state::Status;
+use magworm::{LaneChoice, Model, Status};
 use robots::{BURIED, LIMP, OWN, Robots};
 use std::path::Path;
 use std::sync::Arc;

@@ -3,9 +3,8 @@
 //! A robot's parameters, magnets, start, actions and mishaps follow from its number alone.
 
 use super::hash::Hash;
-use magworm::model::Model;
-use magworm::reset::{Draws, StartPose};
-use magworm::state::{Batch, LaneChoice, StepOutput, View};
+use magworm::internals::Draws;
+use magworm::{Batch, LaneChoice, Model, StartPose, StepOutput, View};
 use std::sync::Arc;
 
 /// The scene's own robot.

@@ -6,7 +6,7 @@ pub mod dice;
 mod drive;
 mod segments;
 
-use magworm::model::Model;
+use magworm::Model;
 use magworm::scene::*;
 use proptest::prelude::*;
 

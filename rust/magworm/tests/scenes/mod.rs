@@ -1,6 +1,6 @@
 //! Scenes that the contracts of stepping are checked in, in the plane and in space.
 
-use magworm::model::Model;
+use magworm::Model;
 use magworm::scene::Scene;
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 use crate::derivatives::energy_of_world;
 use crate::report::Case;
 use crate::world::World;
-use magworm::reset::StartPose;
+use magworm::StartPose;
 
 const ON_FLAT: [(&str, &str); 2] =
     [("ground.incline_deg", "0.0"), ("material.damping_time_s", "5e-3")];

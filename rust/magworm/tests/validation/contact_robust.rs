@@ -1,9 +1,9 @@
 //! Contact over the whole range of scenes.
 
 use crate::world::{World, number};
-use magworm::lanes::Scalar;
-use magworm::state::Status;
-use magworm::step::advance;
+use magworm::Status;
+use magworm::internals::advance;
+use magworm::internals::lanes::Scalar;
 
 /// What happened over a run.
 struct Run {

@@ -1,9 +1,9 @@
 //! Generalised forces and matrices against finite differences of an energy written down here.
 
 use crate::world::{ROD, World, scene};
-use magworm::elastic::kinematics;
-use magworm::lanes::Scalar;
-use magworm::model::{Anchor, Model};
+use magworm::Model;
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Anchor, kinematics};
 use magworm::scene::{Curvature, Scene};
 use nalgebra::{DMatrix, DVector};
 

@@ -4,7 +4,7 @@ use crate::beam::mode_shape;
 use crate::report::Case;
 use crate::statics::{MESHES, Refined, farthest_from_two};
 use crate::world::{CURVATURES, ROD, World, number};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 use nalgebra::{Complex, Matrix2, Vector2};
 
 const LENGTH_M: f64 = 0.1;

@@ -2,7 +2,7 @@
 
 use crate::report::Case;
 use crate::world::{ROD, World};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 
 const EXPLICIT: [(&str, &str); 3] =
     [("solver.integrator", "'explicit'"), ("solver.step_s", "1e-5"), ("control.step_s", "1e-5")];

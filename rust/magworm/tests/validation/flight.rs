@@ -2,7 +2,7 @@
 
 use crate::report::{Case, orders, short};
 use crate::world::{ROD, World, number};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 
 const MAGNETS: [(&str, &str); 2] = [
     ("magnet", "{length_m=8e-3,width_m=0.008,height_m=0.002,remanence_t=1.22,density_kg_m3=7500}"),

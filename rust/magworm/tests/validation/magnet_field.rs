@@ -1,7 +1,7 @@
 //! Field of cuboids against 60-digit arithmetic.
 
 use crate::report::Case;
-use magworm::magnetic::field_t;
+use magworm::internals::magnetic::field_t;
 use nalgebra::Vector3;
 
 const REFERENCE: &str = include_str!("../data/cuboid_field.csv");

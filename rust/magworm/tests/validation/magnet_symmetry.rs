@@ -1,7 +1,7 @@
 //! Far field and symmetries of the planar wrench.
 
 use crate::report::{Axes, Case, Figure, farthest_from, orders};
-use magworm::magnetic::{Cuboid, Magnet, PlanarDipole, PlanarPair, wrench};
+use magworm::internals::magnetic::{Cuboid, Magnet, PlanarDipole, PlanarPair, wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::PI;
 

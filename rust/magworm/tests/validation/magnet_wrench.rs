@@ -2,7 +2,7 @@
 
 use crate::magnet_symmetry::poses;
 use crate::report::{Axes, Case, Figure, short};
-use magworm::magnetic::{Cuboid, Magnet, PlanarPair, Wrench, wrench};
+use magworm::internals::magnetic::{Cuboid, Magnet, PlanarPair, Wrench, wrench};
 use magworm::scene::Scene;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 

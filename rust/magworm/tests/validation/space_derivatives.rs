@@ -4,7 +4,7 @@ use crate::report::Case;
 use crate::space_frames::carried;
 use crate::space_world::Vector;
 use crate::world::{ROD, World};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 use magworm::scene::Curvature;
 use nalgebra::{DMatrix, DVector, Rotation3};
 use proptest::prelude::*;

@@ -3,7 +3,7 @@
 use crate::report::{Case, orders, short};
 use crate::space_world::Vector;
 use crate::world::{ROD, World};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 use nalgebra::Rotation3;
 
 const MAGNETS: [(&str, &str); 3] = [

@@ -3,7 +3,7 @@
 use crate::report::{Axes, Case, Figure, farthest_from, orders};
 use crate::space_world::Vector;
 use crate::world::{ROD, World, number};
-use magworm::model::Anchor;
+use magworm::internals::Anchor;
 use nalgebra::{Matrix3, Rotation3};
 
 /// R(t) of a free rigid body with moments of inertia `moments` about its axes: Ṙ = [ω]R, ω = R I⁻¹ Rᵀ L with L constant,

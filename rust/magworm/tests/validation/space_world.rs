@@ -1,9 +1,8 @@
 //! What a test sets and reads of a world in space.
 
 use crate::world::World;
-use magworm::elastic::kinematics;
-use magworm::lanes::Scalar;
-use magworm::model::Anchor;
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Anchor, kinematics};
 use nalgebra::Vector3;
 
 /// A vector along x, y, z.

@@ -4,7 +4,7 @@
 use crate::magnet_symmetry::poses;
 use crate::report::Case;
 use crate::world::{ROD, World, number};
-use magworm::magnetic::{MU_0, Magnet, Wrench, dipole_wrench, wrench};
+use magworm::internals::magnetic::{MU_0, Magnet, Wrench, dipole_wrench, wrench};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 const REFERENCE: &str = include_str!("../data/magnet_reference.csv");

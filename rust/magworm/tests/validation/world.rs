@@ -1,12 +1,9 @@
 //! One environment whose state a test may set and read freely.
 
-use magworm::equations;
-use magworm::lanes::Scalar;
-use magworm::model::{Anchor, Model};
-use magworm::reset::{Draws, StartPose, reset, scene_start};
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Anchor, Block, Draws, advance, equations, reset, scene_start};
 use magworm::scene::Scene;
-use magworm::state::{Block, Status};
-use magworm::step::advance;
+use magworm::{Model, StartPose, Status};
 
 /// A rod in free space: edits turn it into what a test needs.
 pub const ROD: &str = r#"

@@ -36,16 +36,6 @@ fn worst(values: impl Iterator<Item = (f64, f64)>) -> f64 {
 }
 
 #[test]
-fn ln_is_within_one_and_a_half_ulp() {
-    let wide = uniform(COUNT, 1).into_iter().map(|u| (1400.0 * (u - 0.5)).exp());
-    let near_one = uniform(COUNT, 2).into_iter().map(|u| 0.5 + 1.5 * u);
-    let error = worst(wide.chain(near_one).map(|x| (ln(x), x.ln())));
-    println!("ln: {error:.2} ulp");
-    assert!(error <= 1.5);
-    assert_eq!(ln(1.0), 0.0);
-}
-
-#[test]
 fn ln_ratio_equals_the_difference_of_logarithms() {
     let (p, q) = (uniform(COUNT, 3), uniform(COUNT, 4));
     let mut error = 0.0_f64;
@@ -106,9 +96,9 @@ fn sine_and_cosine_are_within_one_and_a_half_ulp() {
 
 /// Every function of this module at (x, y), x positive.
 #[inline(always)]
-fn all<F: Real>(x: F, y: F) -> [F; 7] {
+fn all<F: Real>(x: F, y: F) -> [F; 6] {
     let (s, c) = sin_cos(y);
-    [ln(x), ln_ratio(x, y.abs()), atan(y), atan2(y, x), atan2(x, y), s, c]
+    [ln_ratio(x, y.abs()), atan(y), atan2(y, x), atan2(x, y), s, c]
 }
 
 /// Distance in units of the last place of `exact` in single precision.
@@ -120,10 +110,9 @@ fn ulp_single(value: Single<f32>, exact: f64) -> f64 {
 
 #[test]
 fn single_precision_is_within_two_and_a_half_ulp() {
-    let (mut logarithm, mut arctangent, mut sine) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut arctangent, mut sine) = (0.0_f64, 0.0_f64);
     for (u, w) in uniform(COUNT, 11).into_iter().zip(uniform(COUNT, 12)) {
         let x = (60.0 * (u - 0.5)).exp() as f32;
-        logarithm = logarithm.max(ulp_single(ln(Single(x)), f64::from(x).ln()));
         let angle = std::f64::consts::TAU * (w - 0.5);
         let [y, z] = [angle.sin(), angle.cos()].map(|part| (f64::from(x) * part) as f32);
         let exact = f64::from(y).atan2(f64::from(z));
@@ -134,8 +123,8 @@ fn single_precision_is_within_two_and_a_half_ulp() {
             sine = sine.max(ulp_single(s, exact_s)).max(ulp_single(c, exact_c));
         }
     }
-    println!("single: ln {logarithm:.2}, atan2 {arctangent:.2}, sin_cos {sine:.2} ulp");
-    assert!(logarithm <= 1.5 && arctangent <= 2.5 && sine <= 1.5);
+    println!("single: atan2 {arctangent:.2}, sin_cos {sine:.2} ulp");
+    assert!(arctangent <= 2.5 && sine <= 1.5);
 }
 
 #[test]
@@ -153,13 +142,13 @@ fn logarithms_of_ratios_in_single_precision_are_within_three_roundings() {
 
 struct Everything<'a, R>(&'a [R], &'a [R]);
 impl<R: Row> WideTask<R> for Everything<'_, R> {
-    type Output = Vec<[R; 7]>;
+    type Output = Vec<[R; 6]>;
     fn run<I: Isa<Row = R>>(self, isa: I) -> Self::Output {
         let run = |(x, y): (&R, &R)| {
             isa.vectorize(
                 #[inline(always)]
                 || {
-                    let mut rows = [R::zeros(); 7];
+                    let mut rows = [R::zeros(); 6];
                     for (row, value) in rows.iter_mut().zip(all(isa.load(x), isa.load(y))) {
                         isa.store(value, row);
                     }
@@ -187,7 +176,7 @@ fn arguments<R: Row>() -> [Vec<R>; 2] {
 fn lanes_equal_one<R: Row, I: Isa<Row = [R::Number; 1]>>(
     isa: I,
     [x, y]: &[Vec<R>; 2],
-    wide: &[[R; 7]],
+    wide: &[[R; 6]],
 ) {
     for (i, wide) in wide.iter().enumerate() {
         for lane in 0..R::LANES {

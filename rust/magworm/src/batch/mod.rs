@@ -1,17 +1,27 @@
 //! A batch: many environments of one model, stepped together on all cores.
 
-use super::block::{Block, Counters, Status};
-use super::control::{ControlRows, Steps, control_block};
-use super::pool::Pool;
-use super::rollout::{Plan, RolloutOutput, rollout};
-use super::view::View;
+mod control;
+mod pool;
+mod rollout;
+mod snapshot;
+mod view;
+
+pub(crate) use pool::Pool;
+pub use rollout::{Plan, RolloutOutput};
+pub use snapshot::SnapshotError;
+pub use view::View;
+
 use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::{Draws, StartPose, reset, scene_start};
 use crate::scene::Precision;
+use crate::state::{Block, Counters, Status};
+use crate::step::Steps;
+use control::{ControlRows, control_block};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
+use rollout::rollout;
 use std::sync::Arc;
 
 /// Environments side by side in a vector, or one by one. Results are equal bit for bit.
@@ -208,19 +218,19 @@ impl Batch {
         })
     }
 
-    /// Columns of the state of one environment, see [`super::snapshot`].
-    pub(super) fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
+    /// Columns of the state of one environment, see `snapshot.rs`.
+    fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
         with_blocks!(&self.blocks, blocks => {
             let (block, lane) = place(blocks, environment);
-            super::snapshot::write_lane(block, lane, out);
+            snapshot::write_lane(block, lane, out);
         });
     }
 
-    pub(super) fn read_column(&mut self, environment: usize, column: &[u8]) {
+    fn read_column(&mut self, environment: usize, column: &[u8]) {
         let model = Arc::clone(&self.model);
         with_blocks!(&mut self.blocks, blocks => {
             let (block, lane) = place_mut(blocks, environment);
-            super::snapshot::read_lane(&model, block, lane, column);
+            snapshot::read_lane(&model, block, lane, column);
         });
     }
 }

@@ -3,11 +3,12 @@
 //! Each block runs all its control steps in one task of the pool. So its state stays in the cache of one core, and
 //! threads wait for each other once a call instead of once a control step.
 
-use super::block::Block;
-use super::control::{ControlRows, Steps, control_block};
+use super::control::{ControlRows, control_block};
 use super::view::View;
 use crate::lanes::Row;
 use crate::model::Model;
+use crate::state::Block;
+use crate::step::Steps;
 use rayon::ThreadPool;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;

@@ -4,11 +4,11 @@
 //! scene) and one column per environment, so it does not depend on how environments were laid out in
 //! lanes. Numbers are little-endian `f64`, which hold those of a scene in single precision too.
 
-use super::batch::Batch;
-use super::block::{Block, Status};
+use super::Batch;
 use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::reset::apply_parameters;
+use crate::state::{Block, Status};
 use std::sync::Arc;
 
 const MAGIC: &[u8; 8] = b"MAGWORM1";

@@ -1,11 +1,10 @@
 //! Looking at one environment of a batch, whatever the width of its block.
 
-use super::block::{Block, Status};
-use super::pose::{Pose, Twist};
 use crate::actuator::{Actuator, Stage, states};
 use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::observe;
+use crate::state::{Block, Pose, Status, Twist};
 use nalgebra::Vector3;
 
 /// One environment, to be looked at.

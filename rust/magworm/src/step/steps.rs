@@ -1,15 +1,12 @@
-//! One control step of a block: actions in, solver steps, what was seen out.
+//! Steps of a block on an instruction set of this processor.
 
-use super::block::{Block, Status};
-use crate::actuate::command;
-use crate::lanes::math::sin_cos;
+use super::{advance, run_phase};
 use crate::lanes::{
-    InstructionSet, Isa, Row, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
+    InstructionSet, Isa, Scalar, ScalarSingle, WIDE, WIDE_SINGLE, WideTask, run_single_on,
     run_wide_on,
 };
 use crate::model::{Model, Phase};
-use crate::observe;
-use crate::step::{advance, run_phase};
+use crate::state::Block;
 
 /// A block that knows how to step itself. Bits are those of any other instruction set.
 pub trait Steps: Send {
@@ -66,62 +63,3 @@ one_lane!(f64, Scalar);
 one_lane!(f32, ScalarSingle);
 many_lanes!(WIDE, f64, run_wide_on);
 many_lanes!(WIDE_SINGLE, f32, run_single_on);
-
-/// How far the centre has moved towards where the head was.
-fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
-    if heading == 0.0 {
-        return x - next_x;
-    }
-    let (sin, cos) = sin_cos(heading);
-    (x - next_x) * cos - (z - next_z) * sin
-}
-
-/// Where a control step of one block writes what it saw, one row per environment.
-pub(super) struct ControlRows<'a> {
-    /// Empty where observations are not wanted.
-    pub observation: &'a mut [f32],
-    pub progress_m: &'a mut [f64],
-    pub status: &'a mut [u8],
-}
-
-impl<'a> ControlRows<'a> {
-    pub(super) fn new(
-        ((observation, progress_m), status): ((&'a mut [f32], &'a mut [f64]), &'a mut [u8]),
-    ) -> Self {
-        Self { observation, progress_m, status }
-    }
-}
-
-/// One control step of a block whose first environment is `first`, see [`super::Batch::step`].
-pub(super) fn control_block<R: Row>(
-    model: &Model,
-    block: &mut Block<R>,
-    first: usize,
-    actions: &[f64],
-    rows: ControlRows<'_>,
-) where
-    Block<R>: Steps,
-{
-    let count = rows.status.len();
-    if model.program.is_controlled() {
-        let size = observe::action_size(model);
-        for lane in 0..count {
-            if block.status[lane] == Status::Running {
-                let action = &actions[size * (first + lane)..][..size];
-                command(model, block, lane, action);
-            }
-        }
-    }
-    for lane in 0..count {
-        block.robot_before[lane] = block.robot_pose(model, lane);
-    }
-    block.advance_on(InstructionSet::widest(), model, model.steps_per_control);
-    let width = observe::size(model);
-    for lane in 0..count {
-        rows.progress_m[lane] = progress_m(block.robot_before[lane], block.robot_pose(model, lane));
-        rows.status[lane] = block.status[lane] as u8;
-    }
-    for (lane, row) in rows.observation.chunks_mut(width).enumerate() {
-        observe::write(model, block, lane, row);
-    }
-}
