@@ -33,6 +33,13 @@ impl Actuator {
         stage.map(Self::Stage).into_iter().collect()
     }
 
+    /// The stage, where it is one: its magnets are sources of the field.
+    pub fn stage(&self) -> Option<&Stage> {
+        match self {
+            Self::Stage(stage) => Some(stage),
+        }
+    }
+
     /// How many rows of a block it needs.
     pub fn sizes(&self) -> Sizes {
         match self {

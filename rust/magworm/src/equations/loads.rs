@@ -78,7 +78,8 @@ impl<'a, I: Isa> Sources<'a, I> {
     #[inline(always)]
     fn of<const D: usize>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
         let mut actuators = states(&model.program.actuators, &block.stage);
-        let (Actuator::Stage(stage), state) = actuators.next()?;
+        let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
+        let (stage, state): (_, &[I::Row]) = actuators.find_map(stage)?;
         let at = |row: usize| isa.load(&state[row]);
         let zero = isa.splat(0.0);
         let yaw = if D == 3 { sin_cos(at(3)) } else { (zero, zero) };

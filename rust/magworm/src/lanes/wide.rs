@@ -36,7 +36,13 @@ impl InstructionSet {
     /// The widest.
     #[inline]
     pub fn widest() -> Self {
-        Self(Level::new())
+        Self::dispatched(Level::new())
+    }
+
+    /// The one that runs where a level is asked for: a build may leave some out, and narrower ones take their place.
+    #[inline]
+    fn dispatched(level: Level) -> Self {
+        Self(dispatch!(level, simd => simd.level()))
     }
 
     /// All, the widest first.
@@ -50,8 +56,8 @@ impl InstructionSet {
         ];
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
         let narrower = [None];
-        let mut all = vec![Self(widest)];
-        all.extend(narrower.into_iter().flatten().map(Self));
+        let mut all = vec![Self::widest()];
+        all.extend(narrower.into_iter().flatten().map(Self::dispatched));
         all.dedup_by_key(|set| set.name());
         all
     }
