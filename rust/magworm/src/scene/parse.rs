@@ -1,7 +1,7 @@
 //! Scenes from and to TOML.
 
 use serde::Deserialize;
-use toml::Table;
+use toml::{Table, Value};
 
 use super::check::{Place, check_table};
 use super::error::{Problem, SceneError};
@@ -28,11 +28,22 @@ impl Scene {
 
     /// Checks the grammar first: after that serde has nothing left to refuse.
     pub(super) fn from_table(mut table: Table) -> Result<Self, Problem> {
+        table.iter_mut().for_each(|(_, value)| unsign_zeros(value));
         accuracy::expand(&mut table)?;
         check_table(&table, &Place::root())?;
         let scene = Self::deserialize(table)
             .map_err(|error| Problem::Syntax(error.message().replace('\n', "; ")))?;
         rules::check(&scene)?;
         Ok(scene)
+    }
+}
+
+/// Zeros lose their sign: scenes that are equal then have equal texts.
+fn unsign_zeros(value: &mut Value) {
+    match value {
+        Value::Float(number) if *number == 0.0 => *number = 0.0,
+        Value::Array(items) => items.iter_mut().for_each(unsign_zeros),
+        Value::Table(fields) => fields.iter_mut().for_each(|(_, value)| unsign_zeros(value)),
+        _ => {}
     }
 }
