@@ -1,11 +1,20 @@
-"""The compiled simulator. Arrays are C-contiguous; N environments, M body magnets, A action
-components, O observation components, D drive magnets, K rod nodes."""
+"""The compiled simulator. N environments, M body magnets, A action components, O observation components,
+D drive magnets, K rod nodes.
+
+Arrays may be given as anything that NumPy makes an array of, of a type that converts without loss:
+float32 for float64, whole numbers that are not negative for uint64. What cannot be used is a TypeError or
+ValueError that names the argument, its value and what is allowed.
+
+Calls that can be long release Python's lock and use all threads; a batch that another call is changing
+meanwhile raises RuntimeError. Ctrl-C, as any signal whose handler raises, stops them within some hundredths
+of a second, and what they work on is then as before. Memory that is not there is a MemoryError, raised
+beforehand."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "PRESETS",
@@ -16,6 +25,7 @@ __all__ = [
     "Trajectories",
     "__version__",
     "_rebuild_batch",
+    "_stops_cleanly",
     "atan2",
     "cuboid_field",
     "cuboid_wrench",
@@ -29,9 +39,14 @@ PRESETS: tuple[str, ...]
 class SceneError(ValueError):
     """A scene that cannot be simulated: names the field, the value, the unit and what is allowed."""
 
+    field: str | None = None
+    """Dotted path of the field; None where it is no field that is wrong."""
+    line: int | None = None
+    """Line of the TOML text, from 1; None for a scene that was not read from text."""
+
 @final
 class Scene:
-    """A validated scene."""
+    """A validated scene: immutable, equal to others by value, usable as a key."""
 
     @staticmethod
     def from_toml(text: str) -> Scene:
@@ -42,7 +57,8 @@ class Scene:
     def with_values(self, values: Mapping[str, Any]) -> Scene:
         """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}, or
         {"body.segment[2].thickness_m": 0.006} in a list, counted from 0. A mapping replaces a whole
-        table, None removes an optional one. Raises SceneError."""
+        table, None removes an optional one. Scalars and arrays of NumPy are taken as numbers and lists.
+        Raises SceneError; ValueError or TypeError for a value that no scene can hold."""
     def in_segments(self) -> Scene:
         """The same scene with its body as a list of segments, to be changed one by one. It gives the same
         trajectories, bit for bit, but for clamped rods that hold magnets; observations are scaled by the
@@ -90,6 +106,7 @@ class Scene:
         (bool), incline_deg."""
     def __reduce__(self) -> tuple[Any, ...]: ...
     def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @final
 class Specification:
@@ -115,7 +132,8 @@ class Batch:
     def __new__(
         cls, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None
     ) -> Batch:
-        """lanes: "wide" (8, single precision 16) or "scalar"; equal bits. threads: None: all."""
+        """lanes: "wide" (8, single precision 16) or "scalar"; equal bits. threads: None: all. Raises
+        MemoryError for more environments than there is memory for."""
     @property
     def scene(self) -> Scene: ...
     @property
@@ -126,40 +144,38 @@ class Batch:
     def action_specification(self) -> tuple[Specification, ...]: ...
     @property
     def parameter_names(self) -> tuple[str, ...]: ...
-    def set_parameter(self, name: str, factors: NDArray[np.float64]) -> None:
+    def set_parameter(self, name: str, factors: ArrayLike) -> None:
         """Factors (N,) of the scene's value, in force from the next reset on. Raises ValueError."""
     def parameter(self, name: str) -> NDArray[np.float64]:
         """Factors (N,) as set (without what a reset draws)."""
-    def set_magnets_present(self, present: NDArray[np.bool_]) -> None:
+    def set_magnets_present(self, present: ArrayLike) -> None:
         """(N, M): False takes a magnet out, in force from the next reset on. Raises ValueError."""
     def magnets_present(self) -> NDArray[np.bool_]: ...
     def reset(
         self,
-        mask: NDArray[np.bool_],
-        seeds: NDArray[np.uint64],
-        episodes: NDArray[np.uint64],
-        start: NDArray[np.float64] | None = None,
+        mask: ArrayLike,
+        seeds: ArrayLike,
+        episodes: ArrayLike,
+        start: ArrayLike | None = None,
     ) -> None:
         """Resets the environments of mask (N,). Random draws depend on (seed, episode) of the
         environment alone. start (N, 3): x [m], height [m], angle [rad]; in space (N, 5), with z [m] and
-        yaw [rad]; None: the scene's. The body is bent as the scene says, whatever its pose."""
-    def step(
-        self, actions: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:
+        yaw [rad]; None, or a row of NaN: the scene's. The body is bent as the scene says, whatever its
+        pose."""
+    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.uint8]]:
         """One control step. actions (N, A) in [-1, 1], clipped. Returns fresh arrays: observations
         (N, O), progress towards the head in this step [m] (N,), status (N,): 0 running, others see
         status_text. Broken environments stand still until reset. Raises ValueError for a wrong
         shape or a value that is not finite, naming the environment; the state is then untouched."""
     def rollout(
-        self, actions: NDArray[np.float64], *, observations: bool = False, magnet_poses: bool = False
+        self, actions: ArrayLike, *, observations: bool = False, magnet_poses: bool = False
     ) -> Trajectories:
         """T control steps in one call, bit for bit as T calls of step. actions (T, N, A) in [-1, 1],
         clipped. Each block of lanes runs its whole trajectory in one task of the thread pool. Broken
         environments stand still, nothing is reset. The batch is left at the end of the trajectories; to
         leave it where it is, roll out its copies. Raises ValueError for a wrong shape or a value that is
-        not finite; the state is then untouched. Ctrl-C stops within a tenth of a second: some
-        environments have then gone further than others."""
-    def copies(self, environments: Sequence[int]) -> Batch:
+        not finite; the state is then untouched."""
+    def copies(self, environments: ArrayLike) -> Batch:
         """A batch of its own, with the same lanes and threads, whose environment k is a copy of
         environments[k] of this one, bit for bit: state, and settings for the next reset. An environment
         may be copied any number of times. Raises ValueError for an index outside 0 to N - 1."""
@@ -215,23 +231,24 @@ class Trajectories:
 def _rebuild_batch(scene: Scene, num_envs: int, lanes: str, threads: int | None, state: bytes) -> Batch:
     """Makes a batch again from what Batch.__reduce__ kept."""
 
-def atan2(y: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angles of the vectors (x, y) from -π to π [rad], the same bits on every platform; NumPy's are not. Raises
-    ValueError for two shapes."""
+def atan2(y: ArrayLike, x: ArrayLike) -> NDArray[np.float64]:
+    """Angles of the vectors (x, y) from -π to π [rad], the same bits on every platform; NumPy's are not.
+    Raises ValueError for two shapes."""
 
-def cuboid_field(
-    size_m: Sequence[float], magnetisation_t: NDArray[np.float64], points_m: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _stops_cleanly() -> bool:
+    """Whether a signal's handler runs now inside a call that stops, and changes nothing, where it raises."""
+
+def cuboid_field(size_m: ArrayLike, magnetisation_t: ArrayLike, points_m: ArrayLike) -> NDArray[np.float64]:
     """Flux density (P, 3) [T] at points (P, 3) [m] of a cuboid at the origin with remanence (P, 3) [T].
     Raises ValueError for other shapes."""
 
 def cuboid_wrench(
-    drive_size_m: Sequence[float],
-    body_size_m: Sequence[float],
-    position_m: NDArray[np.float64],
-    quaternion: NDArray[np.float64],
-    drive_magnetisation_t: NDArray[np.float64],
-    body_magnetisation_t: NDArray[np.float64],
+    drive_size_m: ArrayLike,
+    body_size_m: ArrayLike,
+    position_m: ArrayLike,
+    quaternion: ArrayLike,
+    drive_magnetisation_t: ArrayLike,
+    body_magnetisation_t: ArrayLike,
     order: int,
     model: str,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -240,16 +257,17 @@ def cuboid_wrench(
 
 def record_scenes(
     scenes: Sequence[Scene],
-    duration_s: Sequence[float],
+    duration_s: ArrayLike,
     sample_s: float,
     *,
     nodes: bool = False,
     threads: int | None = None,
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], int]]:
-    """Runs each scene once from its start pose, all of them side by side. For each: magnet poses
-    (T, M, 3 or 7), drive positions (T, D, 2 or 4), nodes (T, K, 2 or 3; K is 0 where they are not asked
-    for), each as Batch gives them, status at the end. A controlled drive stands still. Raises ValueError
-    for times that are no whole number of steps."""
+    """Runs each scene once from its start pose, all of them side by side, for one duration
+    or each for its own. For each: magnet poses (T, M, 3 or 7), drive positions (T, D, 2 or 4), nodes
+    (T, K, 2 or 3; K is 0 where they are not asked for), each as Batch gives them, status at the end. A
+    controlled drive stands still. Raises ValueError for times that are no whole number of steps."""
 
-def sin_cos(angle_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Sines and cosines of angles of up to 1000 rad in magnitude, the same bits on every platform; NumPy's are not."""
+def sin_cos(angle_rad: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sines and cosines of angles of up to 1000 rad in magnitude, the same bits on every platform; NumPy's
+    are not."""

@@ -1,148 +1,140 @@
 //! `Batch` for Python.
 
-use crate::arrays::read;
-use crate::errors::value_error;
+use crate::arguments::{self, bytes, number, whole, word};
+use crate::arrays::{indices, read, shaped};
+use crate::errors::{in_use, value_error};
+use crate::interruption::interruptible;
+use crate::memory::{self, check_room, product};
+use crate::parameters::{check_factors, parameter, parameter_names};
 use crate::rollout::{Trajectories, rollout};
 use crate::scene::Scene;
 use crate::specification::specifications;
-use magworm::scene::Parameter;
-use magworm::{LaneChoice, Model, StartPose, Status, StepOutput, View, observe};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArrayDyn};
+use crate::start::starts;
+use magworm::{LaneChoice, Model, Status, StepOutput, View, observe};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+/// Most environments of a batch.
+const MOST: usize = 1 << 24;
 
 /// N environments of one scene, advanced together.
-#[pyclass(module = "magworm_gym._magworm")]
+#[pyclass(module = "magworm_gym._magworm", frozen)]
 pub struct Batch {
-    batch: magworm::Batch,
+    model: Arc<Model>,
+    count: usize,
+    lanes: LaneChoice,
     threads: Option<usize>,
+    batch: RwLock<magworm::Batch>,
 }
 
-type Arrays1<'py, T> = Bound<'py, PyArray1<T>>;
-type StepArrays<'py> = (Bound<'py, PyArray2<f32>>, Arrays1<'py, f64>, Arrays1<'py, u8>);
+type Array1<'py, T> = Bound<'py, PyArray1<T>>;
+type Array2<'py, T> = Bound<'py, PyArray2<T>>;
+type Array3<'py> = Bound<'py, PyArray3<f64>>;
+type StepArrays<'py> = (Array2<'py, f32>, Array1<'py, f64>, Array1<'py, u8>);
 
 #[pymethods]
 impl Batch {
     #[new]
-    #[pyo3(signature = (scene, num_envs, *, lanes = "wide", threads = None))]
-    fn new(scene: &Scene, num_envs: usize, lanes: &str, threads: Option<usize>) -> PyResult<Self> {
-        let lanes = match lanes {
-            "wide" => LaneChoice::Wide,
-            "scalar" => LaneChoice::Scalar,
-            other => {
-                return Err(value_error(format!(
-                    "lanes is {other:?}; allowed: \"wide\", \"scalar\""
-                )));
-            }
-        };
-        if num_envs == 0 || num_envs > 1 << 24 {
-            return Err(value_error(format!("num_envs is {num_envs}; allowed: 1 to {}", 1 << 24)));
-        }
-        if threads == Some(0) || threads.is_some_and(|t| t > 4096) {
-            return Err(value_error("threads is out of range; allowed: None, or 1 to 4096"));
-        }
-        Ok(Self {
-            batch: magworm::Batch::new(scene.model.clone(), num_envs, lanes, threads),
-            threads,
-        })
+    #[pyo3(
+        signature = (scene, num_envs, *, lanes = None, threads = None),
+        text_signature = "(scene, num_envs, *, lanes='wide', threads=None)"
+    )]
+    fn new(
+        scene: &Bound<'_, PyAny>,
+        num_envs: &Bound<'_, PyAny>,
+        lanes: Option<&Bound<'_, PyAny>>,
+        threads: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let model = arguments::scene("scene", scene)?.get().model.clone();
+        let count = whole("num_envs", num_envs, 1..=MOST)?;
+        let names = [("wide", LaneChoice::Wide), ("scalar", LaneChoice::Scalar)];
+        let (lanes, threads) = (word("lanes", lanes, names)?, arguments::threads(threads)?);
+        check_room(
+            &format!("num_envs is {count}, which"),
+            magworm::Batch::bytes(&model, count, lanes),
+        )?;
+        let batch = interruptible(scene.py(), |interruption| {
+            magworm::Batch::new_unless(interruption, model.clone(), count, lanes, threads)
+        })?;
+        Ok(Self { model, count, lanes, threads, batch: RwLock::new(batch) })
     }
 
     #[getter]
     fn scene(&self) -> Scene {
-        Scene { model: self.batch.model().clone() }
+        Scene { model: self.model.clone() }
     }
 
     #[getter]
     fn num_envs(&self) -> usize {
-        self.batch.count()
+        self.count
     }
 
     #[getter]
     fn observation_specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        specifications(py, observe::observation(self.batch.model()))
+        specifications(py, observe::observation(&self.model))
     }
 
     #[getter]
     fn action_specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        specifications(py, observe::action(self.batch.model()))
+        specifications(py, observe::action(&self.model))
     }
 
     #[getter]
-    fn parameter_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let names: Vec<&str> = Model::PARAMETERS.iter().map(|p| p.name()).collect();
-        Ok(pyo3::types::PyTuple::new(py, names)?.into_any())
+    fn parameter_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, parameter_names())
     }
 
-    fn set_parameter(&mut self, name: &str, factors: PyReadonlyArrayDyn<'_, f64>) -> PyResult<()> {
-        let column = parameter_column(name)?;
-        let values = read("factors", &factors, &[self.batch.count()])?;
-        let drive_speed = name == Parameter::DriveSpeed.name();
-        if let Some((k, bad)) =
-            values.iter().enumerate().find(|(_, f)| !factor_allowed(**f, drive_speed))
-        {
-            let allowed = if drive_speed { "-1e3 to 1e3" } else { "0 to 1e3" };
-            let message =
-                format!("factor of {name} in environment {k} is {bad}; allowed: {allowed}");
-            return Err(value_error(message));
-        }
-        let rows = self.batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
-        rows.zip(values).for_each(|(row, factor)| row[column] = factor);
+    fn set_parameter(&self, name: &Bound<'_, PyAny>, factors: &Bound<'_, PyAny>) -> PyResult<()> {
+        let (name, column) = parameter(name)?;
+        let factors = read::<f64>("factors", factors, &[self.count])?;
+        check_factors(&name, &factors)?;
+        let mut batch = self.writing()?;
+        let rows = batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
+        rows.zip(factors).for_each(|(row, factor)| row[column] = factor);
         Ok(())
     }
 
-    fn parameter<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Arrays1<'py, f64>> {
-        let column = parameter_column(name)?;
-        let rows = self.batch.factors().chunks(Model::PARAMETERS.len());
-        Ok(rows.map(|row| row[column]).collect::<Vec<_>>().into_pyarray(py))
+    fn parameter<'py>(&self, name: &Bound<'py, PyAny>) -> PyResult<Array1<'py, f64>> {
+        let (_, column) = parameter(name)?;
+        let batch = self.reading()?;
+        let rows = batch.factors().chunks(Model::PARAMETERS.len());
+        let mut factors = memory::reserved("parameter", self.count)?;
+        factors.extend(rows.map(|row| row[column]));
+        Ok(factors.into_pyarray(name.py()))
     }
 
-    fn set_magnets_present(&mut self, present: PyReadonlyArrayDyn<'_, bool>) -> PyResult<()> {
-        let shape = [self.batch.count(), self.batch.model().magnets()];
-        let values = read("present", &present, &shape)?;
-        self.batch.present_mut().copy_from_slice(&values);
+    fn set_magnets_present(&self, present: &Bound<'_, PyAny>) -> PyResult<()> {
+        let values = read::<bool>("present", present, &[self.count, self.model.magnets()])?;
+        self.writing()?.present_mut().copy_from_slice(&values);
         Ok(())
     }
 
-    fn magnets_present<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        let shape = [self.batch.count(), self.batch.model().magnets()];
-        PyArray1::from_slice(py, self.batch.present()).reshape(shape)
+    fn magnets_present<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, bool>> {
+        let batch = self.reading()?;
+        let mut present = memory::reserved("magnets_present", batch.present().len())?;
+        present.extend_from_slice(batch.present());
+        shaped(py, present, [self.count, self.model.magnets()])
     }
 
     #[pyo3(signature = (mask, seeds, episodes, start = None))]
     fn reset(
-        &mut self,
-        mask: PyReadonlyArrayDyn<'_, bool>,
-        seeds: PyReadonlyArrayDyn<'_, u64>,
-        episodes: PyReadonlyArrayDyn<'_, u64>,
-        start: Option<PyReadonlyArrayDyn<'_, f64>>,
+        &self,
+        mask: &Bound<'_, PyAny>,
+        seeds: &Bound<'_, PyAny>,
+        episodes: &Bound<'_, PyAny>,
+        start: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let count = self.batch.count();
-        let mask = read("mask", &mask, &[count])?;
-        let seeds = read("seeds", &seeds, &[count])?;
-        let episodes = read("episodes", &episodes, &[count])?;
-        let columns = self.start_limits().len();
-        let start = start.map(|array| read("start", &array, &[count, columns])).transpose()?;
-        check_start(start.as_deref(), &mask, self.start_limits())?;
-        for environment in (0..count).filter(|&k| mask[k]) {
-            let pose = start.as_deref().map(|rows| {
-                let row = &rows[columns * environment..][..columns];
-                let (z_m, yaw_rad) =
-                    if let [.., z, yaw] = row[3..] { (z, yaw) } else { (0.0, 0.0) };
-                StartPose { x_m: row[0], height_m: row[1], angle_rad: row[2], z_m, yaw_rad }
-            });
-            self.batch.reset(environment, seeds[environment], episodes[environment], pose);
-        }
-        Ok(())
+        let mut batch = self.writing()?;
+        let starts = starts(&batch, mask, seeds, episodes, start)?;
+        let batch = &mut *batch;
+        interruptible(mask.py(), |interruption| batch.reset_unless(interruption, &starts))
     }
 
-    fn step<'py>(
-        &mut self,
-        py: Python<'py>,
-        actions: PyReadonlyArrayDyn<'py, f64>,
-    ) -> PyResult<StepArrays<'py>> {
-        let count = self.batch.count();
-        let size = observe::action_size(self.batch.model());
-        let actions = read("actions", &actions, &[count, size])?;
+    fn step<'py>(&self, actions: &Bound<'py, PyAny>) -> PyResult<StepArrays<'py>> {
+        let (py, size) = (actions.py(), observe::action_size(&self.model));
+        let actions = read::<f64>("actions", actions, &[self.count, size])?;
         if let Some(k) = actions.iter().position(|a| !a.is_finite()) {
             let (environment, component) = (k / size, k % size);
             return Err(value_error(format!(
@@ -150,122 +142,133 @@ impl Batch {
                 actions[k]
             )));
         }
-        let width = observe::size(self.batch.model());
-        let mut observation = vec![0.0f32; count * width];
-        let mut progress_m = vec![0.0; count];
-        let mut status = vec![0u8; count];
-        let batch = &mut self.batch;
-        py.detach(|| {
+        let width = observe::size(&self.model);
+        let mut observation = memory::zeros("observations", product(&[self.count, width]))?;
+        let mut progress_m = memory::zeros("progress_m", self.count)?;
+        let mut status = memory::zeros("status", self.count)?;
+        let mut batch = self.writing()?;
+        let batch = &mut *batch;
+        interruptible(py, |interruption| {
             let output = StepOutput {
                 observation: &mut observation,
                 progress_m: &mut progress_m,
                 status: &mut status,
             };
-            batch.step(&actions, output);
-        });
-        let observation = observation.into_pyarray(py).reshape([count, width])?;
+            batch.step_unless(interruption, &actions, output)
+        })?;
+        let observation = shaped(py, observation, [self.count, width])?;
         Ok((observation, progress_m.into_pyarray(py), status.into_pyarray(py)))
     }
 
-    #[pyo3(signature = (actions, *, observations = false, magnet_poses = false))]
-    fn rollout<'py>(
-        &mut self,
-        py: Python<'py>,
-        actions: PyReadonlyArrayDyn<'py, f64>,
-        observations: bool,
-        magnet_poses: bool,
+    #[pyo3(
+        signature = (actions, *, observations = None, magnet_poses = None),
+        text_signature = "($self, actions, *, observations=False, magnet_poses=False)"
+    )]
+    fn rollout(
+        &self,
+        actions: &Bound<'_, PyAny>,
+        observations: Option<&Bound<'_, PyAny>>,
+        magnet_poses: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Trajectories> {
-        rollout(py, &mut self.batch, &actions, observations, magnet_poses)
+        let observations = arguments::flag("observations", observations)?;
+        let magnet_poses = arguments::flag("magnet_poses", magnet_poses)?;
+        rollout(&mut *self.writing()?, actions, observations, magnet_poses)
     }
 
-    fn copies(&self, py: Python<'_>, environments: Vec<i64>) -> PyResult<Self> {
-        let count = self.batch.count();
-        if environments.is_empty() {
-            return Err(value_error("environments is empty; allowed: one index or more"));
-        }
-        let inside = |&environment: &i64| usize::try_from(environment).ok().filter(|&e| e < count);
-        let chosen: Option<Vec<usize>> = environments.iter().map(inside).collect();
-        let Some(chosen) = chosen else {
-            let (k, bad) =
-                (0..).zip(&environments).find(|(_, e)| inside(e).is_none()).unwrap_or((0, &0));
-            return Err(value_error(format!(
-                "environment of copy {k} is {bad}; allowed: 0 to {}",
-                count - 1
-            )));
-        };
-        Ok(Self { batch: py.detach(|| self.batch.copies(&chosen)), threads: self.threads })
+    fn copies(&self, environments: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let chosen = self.environments(environments)?;
+        let (model, count) = (self.model.clone(), chosen.len());
+        check_room(
+            &format!("environments names {count}, whose copies"),
+            magworm::Batch::bytes(&model, count, self.lanes),
+        )?;
+        let batch = self.reading()?;
+        let batch = &*batch;
+        let copies = interruptible(environments.py(), |interruption| {
+            batch.copies_unless(interruption, &chosen)
+        })?;
+        Ok(Self { model, count, batch: RwLock::new(copies), ..*self })
     }
 
-    fn advance(&mut self, py: Python<'_>, duration_s: f64) -> PyResult<()> {
-        let steps = duration_s / self.batch.model().step_s;
+    fn advance(&self, duration_s: &Bound<'_, PyAny>) -> PyResult<()> {
+        let step_s = self.model.step_s;
+        let allowed = format!("a whole number of solver steps of {step_s} s");
+        let steps = number("duration_s", duration_s, &allowed)? / step_s;
         let whole = steps.round();
         if !(whole >= 0.0 && whole <= f64::from(u32::MAX)) || (steps - whole).abs() > 1e-6 {
-            let step_s = self.batch.model().step_s;
-            return Err(value_error(format!(
-                "duration_s is {duration_s} s; allowed: a whole number of solver steps of {step_s} s"
-            )));
+            let given = arguments::shown(duration_s);
+            return Err(value_error(format!("duration_s is {given} s; allowed: {allowed}")));
         }
-        let batch = &mut self.batch;
-        py.detach(|| batch.advance(whole as u32));
-        Ok(())
+        let mut batch = self.writing()?;
+        let batch = &mut *batch;
+        interruptible(duration_s.py(), |interruption| {
+            batch.advance_unless(interruption, whole as u32)
+        })
     }
 
-    fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let shape = [self.batch.count(), observe::size(self.batch.model())];
-        let mut rows = vec![0.0f32; shape[0] * shape[1]];
-        self.batch.observe(&mut rows);
-        rows.into_pyarray(py).reshape(shape)
+    fn observe<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f32>> {
+        let width = observe::size(&self.model);
+        let rows = self.seen(py, "observations", width, |view, row| view.observe(row))?;
+        shaped(py, rows, [self.count, width])
     }
 
-    fn status<'py>(&self, py: Python<'py>) -> Arrays1<'py, u8> {
-        let codes: Vec<u8> = (0..self.batch.count()).map(|k| self.batch.status(k) as u8).collect();
-        codes.into_pyarray(py)
+    fn status<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py, u8>> {
+        let codes = self.seen(py, "status", 1, |view, code| code[0] = view.status() as u8)?;
+        Ok(codes.into_pyarray(py))
     }
 
     #[staticmethod]
-    fn status_text(code: u8) -> PyResult<&'static str> {
-        let status = Status::from_code(code);
+    fn status_text(code: &Bound<'_, PyAny>) -> PyResult<&'static str> {
+        let code = whole("code", code, 0..=usize::from(u8::MAX))?;
+        let status = Status::from_code(code as u8);
         status
             .map(Status::text)
             .ok_or_else(|| value_error(format!("status code {code} is unknown")))
     }
 
-    fn time_s<'py>(&self, py: Python<'py>) -> Arrays1<'py, f64> {
-        self.gather(|view, out| out.push(view.time_s())).into_pyarray(py)
+    fn time_s<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py, f64>> {
+        let times = self.seen(py, "time_s", 1, |view, time| time[0] = view.time_s())?;
+        Ok(times.into_pyarray(py))
     }
 
-    fn magnet_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let magnets = self.batch.model().magnets();
-        self.per_item(py, magnets, [3, 7], |view, k| view.magnet_pose(k))
+    fn magnet_poses<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
+        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 7])];
+        self.table(py, "magnet_poses", shape, |view, k, row| view.write_magnet_pose(k, row))
     }
 
-    fn magnet_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let magnets = self.batch.model().magnets();
-        self.per_item(py, magnets, [3, 6], |view, k| view.magnet_velocity(k))
+    fn magnet_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
+        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 6])];
+        self.table(py, "magnet_velocities", shape, |view, k, row| {
+            view.write_magnet_velocity(k, row)
+        })
     }
 
-    fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let nodes = self.batch.model().nodes();
-        self.per_item(py, nodes, [2, 3], |view, k| view.node_m(k))
+    fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
+        let shape = [self.count, self.model.nodes(), self.of_dimensions([2, 3])];
+        self.table(py, "node_positions", shape, |view, k, row| view.write_node(k, row))
     }
 
-    fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let magnets = self.batch.model().program.drive_magnets();
-        self.per_item(py, magnets, [2, 4], |view, k| view.drive_place(k).unwrap_or_default())
+    fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
+        let magnets = self.model.program.drive_magnets();
+        let shape = [self.count, magnets, self.of_dimensions([2, 4])];
+        self.table(py, "drive_positions", shape, |view, k, row| view.write_drive_place(k, row))
     }
 
-    fn drive_velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.gather(|view, out| out.extend(view.drive_velocity()));
-        rows.into_pyarray(py).reshape([self.batch.count(), self.of_dimensions([2, 4])])
+    fn drive_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f64>> {
+        let width = self.of_dimensions([2, 4]);
+        let rows = self.seen(py, "drive_velocities", width, |view, row| {
+            row.copy_from_slice(&view.drive_velocity());
+        })?;
+        shaped(py, rows, [self.count, width])
     }
 
-    fn robot_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.gather(|view, out| out.extend(view.robot_pose()));
-        rows.into_pyarray(py).reshape([self.batch.count(), 3])
+    fn robot_poses<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f64>> {
+        let pose = |view: &View<'_>, row: &mut [f64]| row.copy_from_slice(&view.robot_pose());
+        shaped(py, self.seen(py, "robot_poses", 3, pose)?, [self.count, 3])
     }
 
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let counters = self.batch.counters();
+        let counters = self.reading()?.counters();
         let dict = PyDict::new(py);
         dict.set_item("steps", counters.steps)?;
         dict.set_item("trials", counters.trials)?;
@@ -274,109 +277,110 @@ impl Batch {
         Ok(dict)
     }
 
-    fn get_state<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, &self.batch.snapshot())
+    fn get_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let batch = self.reading()?;
+        let batch = &*batch;
+        let size = batch.snapshot_bytes();
+        check_room("the state", size)?;
+        PyBytes::new_with(py, size, |state| {
+            interruptible(py, |interruption| batch.snapshot_unless(interruption, state))
+        })
     }
 
-    fn set_state(&mut self, state: &[u8]) -> PyResult<()> {
-        self.batch.restore(state).map_err(value_error)
+    fn set_state(&self, state: &Bound<'_, PyAny>) -> PyResult<()> {
+        let bytes = bytes("state", state)?;
+        let mut batch = self.writing()?;
+        let batch = &mut *batch;
+        let restored =
+            interruptible(state.py(), |interruption| batch.restore_unless(interruption, &bytes))?;
+        restored.map_err(value_error)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let module = py.import("magworm_gym._magworm")?;
         let rebuild = module.getattr("_rebuild_batch")?;
-        let lanes = match self.batch.lanes() {
+        let lanes = match self.lanes {
             LaneChoice::Wide => "wide",
             LaneChoice::Scalar => "scalar",
         };
-        let arguments = (
-            self.scene().into_pyobject(py)?,
-            self.batch.count(),
-            lanes,
-            self.threads,
-            self.get_state(py),
-        );
+        let scene = self.scene().into_pyobject(py)?;
+        let arguments = (scene, self.count, lanes, self.threads, self.get_state(py)?);
         (rebuild, arguments).into_pyobject(py).map(Bound::into_any)
     }
 }
 
 impl Batch {
-    fn gather<T>(&self, look: impl Fn(View<'_>, &mut Vec<T>)) -> Vec<T> {
-        let mut out = Vec::new();
-        (0..self.batch.count()).for_each(|k| self.batch.view(k, |view| look(view, &mut out)));
-        out
+    fn reading(&self) -> PyResult<RwLockReadGuard<'_, magworm::Batch>> {
+        self.batch.try_read().map_err(|error| in_use("this batch", &error))
+    }
+
+    fn writing(&self) -> PyResult<RwLockWriteGuard<'_, magworm::Batch>> {
+        self.batch.try_write().map_err(|error| in_use("this batch", &error))
     }
 
     /// What a scene in the plane and one in space have.
     fn of_dimensions<T>(&self, [plane, space]: [T; 2]) -> T {
-        if self.batch.model().dimensions() == 2 { plane } else { space }
+        if self.model.dimensions() == 2 { plane } else { space }
     }
 
-    /// Numbers of each of `count` things of an environment; `width` in the plane and in space.
-    fn per_item<'py>(
+    /// So many numbers of each environment.
+    fn seen<T: Clone + Default + Send>(
+        &self,
+        py: Python<'_>,
+        what: &str,
+        each: usize,
+        look: impl Fn(&View<'_>, &mut [T]) + Sync,
+    ) -> PyResult<Vec<T>> {
+        let batch = self.reading()?;
+        let batch = &*batch;
+        let mut rows = memory::zeros(what, product(&[self.count, each]))?;
+        interruptible(py, |interruption| batch.look_unless(interruption, &mut rows, &look))?;
+        Ok(rows)
+    }
+
+    /// Numbers of each of several things of an environment.
+    fn table<'py>(
         &self,
         py: Python<'py>,
-        count: usize,
-        width: [usize; 2],
-        look: impl Fn(&View<'_>, usize) -> Vec<f64>,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let rows = self.gather(|view, out| (0..count).for_each(|k| out.extend(look(&view, k))));
-        let shape = [self.batch.count(), count, self.of_dimensions(width)];
-        rows.into_pyarray(py).reshape(shape)
+        what: &str,
+        shape: [usize; 3],
+        write: impl Fn(&View<'_>, usize, &mut [f64]) + Sync,
+    ) -> PyResult<Array3<'py>> {
+        let [_, things, width] = shape;
+        let rows = self.seen(py, what, product(&[things, width]), |view, rows| {
+            rows.chunks_mut(width).enumerate().for_each(|(k, row)| write(view, k, row));
+        })?;
+        shaped(py, rows, shape)
     }
 
-    /// Columns of a start pose: name, greatest magnitude, unit.
-    fn start_limits(&self) -> &'static [StartLimit] {
-        self.of_dimensions([&START[..3], &START])
+    /// Indices of environments, one at least.
+    fn environments(&self, given: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+        let indices = indices("environments", given)?;
+        if indices.is_empty() {
+            return Err(value_error("environments is empty; allowed: one index or more"));
+        }
+        let inside = |(copy, index): (usize, &i64)| {
+            let chosen = usize::try_from(*index).ok().filter(|&chosen| chosen < self.count);
+            let last = self.count - 1;
+            chosen.ok_or_else(|| {
+                value_error(format!("environment of copy {copy} is {index}; allowed: 0 to {last}"))
+            })
+        };
+        indices.iter().enumerate().map(inside).collect()
     }
 }
-
-type StartLimit = (&'static str, f64, &'static str);
-
-const START: [StartLimit; 5] = [
-    ("x", 1e3, "m"),
-    ("height", 10.0, "m"),
-    ("angle", 1e3, "rad"),
-    ("z", 1e3, "m"),
-    ("yaw", 1e3, "rad"),
-];
 
 /// Makes a batch again from what `Batch.__reduce__` kept.
 #[pyfunction]
+#[pyo3(signature = (scene, num_envs, lanes, threads, state))]
 pub fn _rebuild_batch(
-    scene: &Scene,
-    num_envs: usize,
-    lanes: &str,
-    threads: Option<usize>,
-    state: &[u8],
+    scene: &Bound<'_, PyAny>,
+    num_envs: &Bound<'_, PyAny>,
+    lanes: &Bound<'_, PyAny>,
+    threads: Option<&Bound<'_, PyAny>>,
+    state: &Bound<'_, PyAny>,
 ) -> PyResult<Batch> {
-    let mut batch = Batch::new(scene, num_envs, lanes, threads)?;
+    let batch = Batch::new(scene, num_envs, Some(lanes), threads)?;
     batch.set_state(state)?;
     Ok(batch)
-}
-
-fn parameter_column(name: &str) -> PyResult<usize> {
-    Model::PARAMETERS.iter().position(|p| p.name() == name).ok_or_else(|| {
-        let names: Vec<&str> = Model::PARAMETERS.iter().map(|p| p.name()).collect();
-        value_error(format!("parameter {name:?} is unknown; allowed: {}", names.join(", ")))
-    })
-}
-
-fn factor_allowed(factor: f64, signed: bool) -> bool {
-    factor.abs() <= 1e3 && (signed || factor >= 0.0)
-}
-
-/// Start poses of the masked environments must be finite and near.
-fn check_start(start: Option<&[f64]>, mask: &[bool], limits: &[StartLimit]) -> PyResult<()> {
-    let rows = start.unwrap_or_default().chunks(limits.len()).enumerate().filter(|(k, _)| mask[*k]);
-    for (environment, row) in rows {
-        for (value, (name, most, unit)) in row.iter().zip(limits) {
-            if value.is_nan() || value.abs() > *most {
-                return Err(value_error(format!(
-                    "start {name} of environment {environment} is {value} {unit}; allowed: -{most} to {most} {unit}"
-                )));
-            }
-        }
-    }
-    Ok(())
 }

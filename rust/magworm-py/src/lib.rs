@@ -3,14 +3,20 @@
 #![deny(clippy::disallowed_methods)]
 
 mod angles;
+mod arguments;
 mod arrays;
 mod batch;
 mod errors;
+mod interruption;
 mod magnet;
+mod memory;
+mod parameters;
 mod record;
 mod rollout;
 mod scene;
 mod specification;
+mod start;
+mod values;
 
 use pyo3::prelude::*;
 
@@ -24,6 +30,8 @@ mod _magworm {
     #[pymodule_export]
     use crate::errors::SceneError;
     #[pymodule_export]
+    use crate::interruption::_stops_cleanly;
+    #[pymodule_export]
     use crate::magnet::{cuboid_field, cuboid_wrench};
     #[pymodule_export]
     use crate::record::record_scenes;
@@ -34,11 +42,15 @@ mod _magworm {
     #[pymodule_export]
     use crate::specification::Specification;
 
+    use crate::arrays::load_numpy;
+    use crate::errors::declare_scene_error;
     use pyo3::prelude::*;
     use pyo3::types::PyTuple;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        load_numpy(module.py())?;
+        declare_scene_error(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("PRESETS", PyTuple::new(module.py(), magworm::scene::PRESETS)?)
     }

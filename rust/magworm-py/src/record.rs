@@ -1,10 +1,13 @@
 //! Recordings for Python.
 
+use crate::arguments::{flag, number, scene, type_error};
+use crate::arrays::{array, read, shaped};
 use crate::errors::value_error;
-use crate::scene::Scene;
+use crate::interruption::interruptible;
+use crate::memory::check_room;
 use magworm::Model;
 use magworm::internals::{Recording, Watch, record};
-use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
+use numpy::{PyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -13,34 +16,50 @@ type Arrays<'py> = (Array3<'py>, Array3<'py>, Array3<'py>, u8);
 
 /// Runs each scene once and keeps what it saw: magnet poses, drive positions, nodes, status.
 #[pyfunction]
-#[pyo3(signature = (scenes, duration_s, sample_s, *, nodes = false, threads = None))]
+#[pyo3(
+    signature = (scenes, duration_s, sample_s, *, nodes = None, threads = None),
+    text_signature = "(scenes, duration_s, sample_s, *, nodes=False, threads=None)"
+)]
 pub fn record_scenes<'py>(
-    py: Python<'py>,
-    scenes: Vec<Bound<'py, Scene>>,
-    duration_s: Vec<f64>,
-    sample_s: f64,
-    nodes: bool,
-    threads: Option<usize>,
+    scenes: &Bound<'py, PyAny>,
+    duration_s: &Bound<'py, PyAny>,
+    sample_s: &Bound<'py, PyAny>,
+    nodes: Option<&Bound<'py, PyAny>>,
+    threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Vec<Arrays<'py>>> {
-    if duration_s.len() != scenes.len() {
-        return Err(value_error(format!(
-            "duration_s has {} entries; expected one per scene, {}",
-            duration_s.len(),
-            scenes.len()
-        )));
-    }
-    if threads == Some(0) || threads.is_some_and(|t| t > 4096) {
-        return Err(value_error("threads is out of range; allowed: None, or 1 to 4096"));
-    }
-    let planned = scenes.iter().zip(duration_s).map(|(scene, duration_s)| {
-        let model = scene.get().model.clone();
+    let py = scenes.py();
+    let models = models(scenes)?;
+    let durations = durations(duration_s, models.len())?;
+    let sample_s = number("sample_s", sample_s, "a time in seconds")?;
+    let nodes = flag("nodes", nodes)?;
+    let threads = crate::arguments::threads(threads)?;
+    let planned = models.into_iter().zip(durations).map(|(model, duration_s)| {
         let watch = watch(&model, duration_s, sample_s, nodes)?;
         Ok((model, watch))
     });
     let planned: Vec<(Arc<Model>, Watch)> = planned.collect::<PyResult<_>>()?;
-    let recordings = py.detach(|| record(&planned, threads));
+    let bytes = planned.iter().map(|(model, watch)| Recording::bytes(model, *watch));
+    check_room("the recording", bytes.fold(0, usize::saturating_add))?;
+    let recordings = interruptible(py, |interruption| record(&planned, threads, interruption))?;
     let made = planned.iter().zip(recordings);
     made.map(|((model, watch), one)| arrays(py, model, *watch, one)).collect()
+}
+
+fn models(scenes: &Bound<'_, PyAny>) -> PyResult<Vec<Arc<Model>>> {
+    let items = scenes.try_iter().map_err(|_| type_error("scenes", scenes, "a list of scenes"))?;
+    let model = |(k, item): (usize, PyResult<Bound<'_, PyAny>>)| {
+        Ok(scene(&format!("scenes[{k}]"), &item?)?.get().model.clone())
+    };
+    items.enumerate().map(model).collect()
+}
+
+/// A time for each scene, from one for all or as many.
+fn durations(duration_s: &Bound<'_, PyAny>, scenes: usize) -> PyResult<Vec<f64>> {
+    let given = array::<f64>("duration_s", duration_s)?;
+    if given.ndim() > 0 {
+        return read("duration_s", &given, &[scenes]);
+    }
+    Ok(vec![number("duration_s", duration_s, "a time in seconds")?; scenes])
 }
 
 fn watch(model: &Model, duration_s: f64, sample_s: f64, nodes: bool) -> PyResult<Watch> {
@@ -69,9 +88,9 @@ fn arrays<'py>(
     let instants = watch.intervals as usize + 1;
     let Recording { magnet_poses, drive, node_m, status } = recording;
     let (pose, place, axes) = if model.dimensions() == 2 { (3, 2, 2) } else { (7, 4, 3) };
-    let shaped = |numbers: Vec<f64>, width: usize| {
+    let table = |numbers: Vec<f64>, width: usize| {
         let each = numbers.len() / (instants * width);
-        numbers.into_pyarray(py).reshape([instants, each, width])
+        shaped(py, numbers, [instants, each, width])
     };
-    Ok((shaped(magnet_poses, pose)?, shaped(drive, place)?, shaped(node_m, axes)?, status as u8))
+    Ok((table(magnet_poses, pose)?, table(drive, place)?, table(node_m, axes)?, status as u8))
 }

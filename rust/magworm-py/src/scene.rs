@@ -1,15 +1,16 @@
 //! `Scene` for Python.
 
-use crate::errors::{scene_error, value_error};
+use crate::arguments::{flag, text};
+use crate::errors::scene_error;
+use crate::interruption::interruptible;
+use crate::values::changes;
 use magworm::internals::share;
-use magworm::scene::Motion;
+use magworm::scene::{Motion, SceneError};
 use magworm::{Model, scene};
 use pyo3::prelude::*;
-use pyo3::types::{
-    PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PySequence, PyString, PyTuple,
-};
+use pyo3::types::{PyDict, PyTuple};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
-use toml::Value;
 
 /// A validated scene.
 #[pyclass(module = "magworm_gym._magworm", frozen)]
@@ -19,8 +20,9 @@ pub struct Scene {
 }
 
 impl Scene {
-    fn compile(scene: &scene::Scene) -> PyResult<Self> {
-        Ok(Self { model: Arc::new(Model::compile(scene).map_err(scene_error)?) })
+    fn compiled(py: Python<'_>, scene: Result<scene::Scene, SceneError>) -> PyResult<Self> {
+        let model = scene.and_then(|scene| Model::compile(&scene));
+        Ok(Self { model: Arc::new(model.map_err(|error| scene_error(py, &error))?) })
     }
 
     fn inner(&self) -> &scene::Scene {
@@ -31,39 +33,40 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[staticmethod]
-    fn from_toml(text: &str) -> PyResult<Self> {
-        Self::compile(&scene::Scene::from_toml(text).map_err(scene_error)?)
+    fn from_toml(text: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let toml = self::text("text", text, "TOML as text; load_scene reads files")?;
+        Self::compiled(text.py(), scene::Scene::from_toml(&toml))
     }
 
     #[staticmethod]
-    fn preset(name: &str) -> PyResult<Self> {
-        Self::compile(&scene::Scene::preset(name).map_err(scene_error)?)
+    fn preset(name: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let given = text("name", name, "the name of a preset; load_scene reads files")?;
+        Self::compiled(name.py(), scene::Scene::preset(&given))
     }
 
-    fn with_values(&self, values: &Bound<'_, PyMapping>) -> PyResult<Self> {
-        let mut changes = Vec::new();
-        for item in values.items()?.iter() {
-            let (path, value): (String, Bound<'_, PyAny>) = item.extract()?;
-            changes.push((path.clone(), toml_value(&path, &value)?));
-        }
-        Self::compile(&self.inner().with_values(&changes).map_err(scene_error)?)
+    fn with_values(&self, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::compiled(values.py(), self.inner().with_values(&changes(values)?))
     }
 
-    fn in_segments(&self) -> PyResult<Self> {
-        Self::compile(&self.inner().in_segments())
+    fn in_segments(&self, py: Python<'_>) -> PyResult<Self> {
+        Self::compiled(py, Ok(self.inner().in_segments()))
     }
 
     fn to_toml(&self) -> String {
         self.inner().to_toml()
     }
 
-    #[pyo3(signature = (*, measure = false))]
-    fn explain(&self, py: Python<'_>, measure: bool) -> String {
-        if measure { py.detach(|| share::explain(&self.model)) } else { self.model.explain() }
+    #[pyo3(signature = (*, measure = None), text_signature = "($self, *, measure=False)")]
+    fn explain(&self, py: Python<'_>, measure: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+        if flag("measure", measure)? {
+            interruptible(py, |interruption| share::explain(&self.model, interruption))
+        } else {
+            Ok(self.model.explain())
+        }
     }
 
     fn shares<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let shares = py.detach(|| share::shares(&self.model));
+        let shares = interruptible(py, |interruption| share::shares(&self.model, interruption))?;
         let dict = PyDict::new(py);
         for (phase, share) in shares {
             dict.set_item(phase.name(), share)?;
@@ -178,48 +181,15 @@ impl Scene {
         self.inner() == other.inner()
     }
 
+    /// Equal scenes have equal texts: zeros have no sign.
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.to_toml().hash(&mut hasher);
+        hasher.finish()
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         let rebuild = py.get_type::<Self>().getattr("from_toml")?;
         Ok((rebuild, (self.to_toml(),)))
     }
-}
-
-/// A Python value as a TOML one; `None` stays none.
-fn toml_value(path: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Value>> {
-    if value.is_none() {
-        return Ok(None);
-    }
-    let required = |value: &Bound<'_, PyAny>, inner: &str| -> PyResult<Value> {
-        toml_value(inner, value)?
-            .ok_or_else(|| value_error(format!("{inner} is None; leave it out")))
-    };
-    let converted = if value.is_instance_of::<PyBool>() {
-        Value::Boolean(value.extract()?)
-    } else if value.is_instance_of::<PyInt>() {
-        Value::Integer(value.extract()?)
-    } else if value.is_instance_of::<PyFloat>() {
-        Value::Float(value.extract()?)
-    } else if value.is_instance_of::<PyString>() {
-        Value::String(value.extract()?)
-    } else if value.is_instance_of::<PyDict>() || value.cast::<PyMapping>().is_ok() {
-        let mut table = toml::Table::new();
-        for item in value.cast::<PyMapping>()?.items()?.iter() {
-            let (key, value): (String, Bound<'_, PyAny>) = item.extract()?;
-            let inner = required(&value, &format!("{path}.{key}"))?;
-            table.insert(key, inner);
-        }
-        Value::Table(table)
-    } else if value.is_instance_of::<PyList>() || value.cast::<PySequence>().is_ok() {
-        let items =
-            value.try_iter()?.map(|item| required(&item?, path)).collect::<PyResult<_>>()?;
-        Value::Array(items)
-    } else if let Ok(number) = value.extract::<f64>() {
-        Value::Float(number)
-    } else {
-        let kind = value.get_type().name()?.to_string();
-        return Err(value_error(format!(
-            "{path} is of type {kind}; allowed: bool, int, float, str, list, dict, None"
-        )));
-    };
-    Ok(Some(converted))
 }

@@ -30,6 +30,7 @@ mod draws;
 mod elastic;
 mod equations;
 mod integrate;
+mod interruption;
 mod lanes;
 mod magnetic;
 mod model;
@@ -42,7 +43,8 @@ mod specification;
 mod state;
 mod step;
 
-pub use batch::{Batch, LaneChoice, Plan, RolloutOutput, SnapshotError, StepOutput, View};
+pub use batch::{Batch, LaneChoice, Plan, RolloutOutput, SnapshotError, Start, StepOutput, View};
+pub use interruption::{Interrupted, Interruption};
 pub use model::Model;
 pub use reset::StartPose;
 pub use scene::Scene;
@@ -52,6 +54,7 @@ pub use state::{Counters, Pose, Status, Twist};
 #[doc(hidden)]
 pub mod internals {
     pub use crate::actuate::command;
+    pub use crate::batch::Pool;
     pub use crate::contact::Mode;
     pub use crate::draws::Draws;
     pub use crate::elastic::kinematics;

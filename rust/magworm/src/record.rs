@@ -3,10 +3,15 @@
 //! For fits, sweeps and figures, where the scenes differ in what a batch shares (sizes, motion, mesh).
 //! Scenes run side by side on all cores, one environment each.
 
-use crate::batch::{Batch, LaneChoice, Pool, View};
+use crate::batch::{Pool, View, advance_block};
+use crate::draws::Draws;
+use crate::interruption::{Interrupted, Interruption};
+use crate::lanes::Row;
 use crate::model::Model;
-use crate::state::Status;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use crate::reset::{reset, scene_start};
+use crate::scene::Precision;
+use crate::state::{Block, Status};
+use crate::step::Steps;
 use std::sync::Arc;
 
 /// One environment over time: S + 1 instants, M body magnets, D drive magnets, K nodes. Numbers of a pose or
@@ -36,35 +41,92 @@ pub struct Watch {
 
 /// Records scenes side by side on `threads` threads (none: one per core), in their order. A controlled
 /// drive stands still.
-pub fn record(models: &[(Arc<Model>, Watch)], threads: Option<usize>) -> Vec<Recording> {
-    let run = |(model, watch): &(Arc<Model>, Watch)| record_one(model, *watch);
-    match Pool::new(threads).get() {
-        None => models.iter().map(run).collect(),
-        Some(pool) => pool.install(|| models.par_iter().map(run).collect()),
+///
+/// # Errors
+/// The call was stopped.
+pub fn record(
+    models: &[(Arc<Model>, Watch)],
+    threads: Option<usize>,
+    interruption: &Interruption<'_>,
+) -> Result<Vec<Recording>, Interrupted> {
+    let mut recordings: Vec<Option<Recording>> = models.iter().map(|_| None).collect();
+    Pool::new(threads).each(interruption, &mut recordings, 1, |k, recording| {
+        let (model, watch) = &models[k];
+        recording[0] = record_one(model, *watch, interruption).ok();
+    });
+    interruption.last_asked()?;
+    Ok(recordings.into_iter().flatten().collect())
+}
+
+fn record_one(
+    model: &Model,
+    watch: Watch,
+    interruption: &Interruption<'_>,
+) -> Result<Recording, Interrupted> {
+    match model.scene.solver.precision {
+        Precision::Double => record_with::<[f64; 1]>(model, watch, interruption),
+        Precision::Single => record_with::<[f32; 1]>(model, watch, interruption),
     }
 }
 
-fn record_one(model: &Arc<Model>, watch: Watch) -> Recording {
-    let mut batch = Batch::new(model.clone(), 1, LaneChoice::Scalar, Some(1));
-    batch.reset(0, 0, 0, None);
-    let mut recording =
-        Recording { magnet_poses: vec![], drive: vec![], node_m: vec![], status: Status::Running };
-    batch.view(0, |view| recording.note(model, &view, watch.nodes));
+fn record_with<R: Row>(
+    model: &Model,
+    watch: Watch,
+    interruption: &Interruption<'_>,
+) -> Result<Recording, Interrupted>
+where
+    Block<R>: Steps,
+{
+    let mut block = Block::<R>::new(model);
+    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let factors = [1.0; Model::PARAMETERS.len()];
+    reset(model, &mut block, 0, scene_start(model), &factors, &present, Draws::new(0, 0));
+    let (mut recording, sizes) =
+        (Recording::with_room(model, watch), Recording::sizes(model, watch));
+    recording.note(&View::new(model, &block, 0), sizes);
     for _ in 0..watch.intervals {
-        batch.advance(watch.steps);
-        batch.view(0, |view| recording.note(model, &view, watch.nodes));
+        advance_block(model, &mut block, watch.steps, interruption)?;
+        recording.note(&View::new(model, &block, 0), sizes);
     }
-    recording.status = batch.status(0);
-    recording
+    recording.status = block.status[0];
+    Ok(recording)
 }
 
 impl Recording {
-    fn note(&mut self, model: &Model, view: &View<'_>, nodes: bool) {
-        self.magnet_poses.extend((0..model.magnets()).flat_map(|j| view.magnet_pose(j)));
-        let drives = 0..model.program.drive_magnets();
-        self.drive.extend(drives.filter_map(|k| view.drive_place(k)).flatten());
-        if nodes {
-            self.node_m.extend((0..model.nodes()).flat_map(|n| view.node_m(n)));
-        }
+    /// What it takes in memory [bytes].
+    pub fn bytes(model: &Model, watch: Watch) -> usize {
+        let instants = watch.intervals as usize + 1;
+        let numbers = |[things, width]: [usize; 2]| things * width * instants;
+        8 * Self::sizes(model, watch).map(numbers).iter().sum::<usize>()
+    }
+
+    /// Body magnets, drive magnets and nodes, each with the numbers of one at an instant.
+    fn sizes(model: &Model, watch: Watch) -> [[usize; 2]; 3] {
+        let [pose, place, axes] = if model.dimensions() == 2 { [3, 2, 2] } else { [7, 4, 3] };
+        let nodes = if watch.nodes { model.nodes() } else { 0 };
+        [[model.magnets(), pose], [model.program.drive_magnets(), place], [nodes, axes]]
+    }
+
+    fn with_room(model: &Model, watch: Watch) -> Self {
+        let instants = watch.intervals as usize + 1;
+        let room = |[things, width]: [usize; 2]| Vec::with_capacity(things * width * instants);
+        let [magnet_poses, drive, node_m] = Self::sizes(model, watch).map(room);
+        Self { magnet_poses, drive, node_m, status: Status::Running }
+    }
+
+    fn note(&mut self, view: &View<'_>, sizes: [[usize; 2]; 3]) {
+        let [magnets, drives, nodes] = sizes;
+        append(&mut self.magnet_poses, magnets, |k, row| view.write_magnet_pose(k, row));
+        append(&mut self.drive, drives, |k, row| view.write_drive_place(k, row));
+        append(&mut self.node_m, nodes, |k, row| view.write_node(k, row));
+    }
+}
+
+/// Appends a row for each of so many things.
+fn append(table: &mut Vec<f64>, [things, width]: [usize; 2], write: impl Fn(usize, &mut [f64])) {
+    for thing in 0..things {
+        let start = table.len();
+        table.resize(start + width, 0.0);
+        write(thing, &mut table[start..]);
     }
 }

@@ -4,6 +4,7 @@
 //! equal bit for bit, so of each phase in each step the least time counts, and interruptions do not.
 
 use crate::actuate::command;
+use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
 use crate::model::{Model, Phase};
 use crate::reset::{Draws, reset, scene_start};
@@ -21,46 +22,65 @@ const RUNS: usize = 3;
 ///
 /// Takes as long as 600 steps of a block. Times differ from run to run by some per cent; nothing in a simulation
 /// depends on them.
-pub fn shares(model: &Model) -> Vec<(Phase, f64)> {
+///
+/// # Errors
+/// The call was stopped.
+pub fn shares(
+    model: &Model,
+    interruption: &Interruption<'_>,
+) -> Result<Vec<(Phase, f64)>, Interrupted> {
     match model.scene.solver.precision {
-        Precision::Double => shares_of::<[f64; WIDE]>(model),
-        Precision::Single => shares_of::<[f32; WIDE_SINGLE]>(model),
+        Precision::Double => shares_of::<[f64; WIDE]>(model, interruption),
+        Precision::Single => shares_of::<[f32; WIDE_SINGLE]>(model, interruption),
     }
 }
 
-fn shares_of<R: Row>(model: &Model) -> Vec<(Phase, f64)>
+fn shares_of<R: Row>(
+    model: &Model,
+    interruption: &Interruption<'_>,
+) -> Result<Vec<(Phase, f64)>, Interrupted>
 where
     Block<R>: Steps,
 {
     let phases = model.phases.len();
     let mut least = vec![Duration::MAX; phases * STEPS as usize];
     for _ in 0..RUNS {
-        run::<R>(model, &mut least);
+        run::<R>(model, &mut least, interruption)?;
     }
     let of_phase = |phase| least.iter().skip(phase).step_by(phases).map(Duration::as_secs_f64);
     let total: f64 = least.iter().map(Duration::as_secs_f64).sum();
     let share = |phase| of_phase(phase).sum::<f64>() / total;
-    model.phases.iter().enumerate().map(|(k, &phase)| (phase, share(k))).collect()
+    Ok(model.phases.iter().enumerate().map(|(k, &phase)| (phase, share(k))).collect())
 }
 
 /// [`Model::explain`], and the share of each phase in percent.
-pub fn explain(model: &Model) -> String {
+///
+/// # Errors
+/// The call was stopped.
+pub fn explain(model: &Model, interruption: &Interruption<'_>) -> Result<String, Interrupted> {
     let mut text = model.explain();
     text.push_str("\nshare of a step's time, measured with random actions\n");
-    for (phase, share) in shares(model) {
+    for (phase, share) in shares(model, interruption)? {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{:<16}{:>5.1} %", phase.name(), 100.0 * share);
     }
-    text
+    Ok(text)
 }
 
 /// Lowers the times of phases, shape [steps × phases], to those of one more run.
-fn run<R: Row>(model: &Model, least: &mut [Duration])
+fn run<R: Row>(
+    model: &Model,
+    least: &mut [Duration],
+    interruption: &Interruption<'_>,
+) -> Result<(), Interrupted>
 where
     Block<R>: Steps,
 {
     let mut block = start::<R>(model);
     for (step, row) in (0..STEPS).zip(least.chunks_mut(model.phases.len())) {
+        if interruption.stops() {
+            return Err(Interrupted);
+        }
         if step.is_multiple_of(model.steps_per_control) {
             act(model, &mut block, u64::from(step / model.steps_per_control));
         }
@@ -70,6 +90,7 @@ where
             *least = begin.elapsed().min(*least);
         }
     }
+    interruption.last_asked()
 }
 
 /// As many robots as a block has lanes at the scene's start pose.
@@ -100,7 +121,8 @@ mod tests {
 
     fn measured(preset: &str) -> Vec<(Phase, f64)> {
         let model = Scene::preset(preset).and_then(|scene| Model::compile(&scene));
-        shares(&model.expect("the preset is valid"))
+        let model = model.expect("the preset is valid");
+        shares(&model, &Interruption::never()).expect("nothing stops it")
     }
 
     #[test]

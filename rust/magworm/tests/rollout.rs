@@ -6,7 +6,9 @@ mod scenes;
 use bits_world::{MISHAP, Record, World, run};
 use magworm::LaneChoice::{Scalar, Wide};
 use magworm::internals::Draws;
-use magworm::{Batch, LaneChoice, Model, Plan, RolloutOutput, Status, StepOutput, observe};
+use magworm::{
+    Batch, Interruption, LaneChoice, Model, Plan, RolloutOutput, Status, StepOutput, observe,
+};
 use scenes::model;
 use std::sync::Arc;
 
@@ -37,11 +39,7 @@ impl Seen {
         }
     }
 
-    fn rollout(
-        batch: &mut Batch,
-        plan: Plan<'_>,
-        interrupted: &mut dyn FnMut() -> bool,
-    ) -> (bool, Self) {
+    fn rollout(batch: &mut Batch, plan: Plan<'_>) -> Self {
         let mut seen = Self::new(batch, plan.control_steps);
         let output = RolloutOutput {
             progress_m: &mut seen.progress_m,
@@ -50,7 +48,8 @@ impl Seen {
             magnet_pose: &mut seen.magnet_pose,
             observation: &mut seen.observation,
         };
-        (batch.rollout(plan, output, interrupted), seen)
+        batch.rollout(plan, output, &Interruption::never()).expect("nothing stops it");
+        seen
     }
 
     fn stepping(batch: &mut Batch, plan: Plan<'_>) -> Self {
@@ -117,8 +116,8 @@ fn a_rollout_equals_stepping_bit_for_bit() {
         let expected = Seen::stepping(&mut stepped, plan);
         for (lanes, threads) in [(Wide, 1), (Wide, 2), (Wide, 3), (Scalar, 1), (Scalar, 3)] {
             let mut batch = about_to_break(&model, lanes, threads);
-            let (finished, seen) = Seen::rollout(&mut batch, plan, &mut || false);
-            assert!(finished && seen == expected, "{scene}, {lanes:?}, {threads} threads");
+            let seen = Seen::rollout(&mut batch, plan);
+            assert!(seen == expected, "{scene}, {lanes:?}, {threads} threads");
             for (there, here) in records(&stepped).iter().zip(records(&batch)) {
                 here.assert_equals(there, &format!("{scene}, {lanes:?}, at the end"));
             }
@@ -137,11 +136,8 @@ fn what_is_not_wanted_is_not_written_and_changes_nothing() {
     let actions = actions(&model, ROBOTS.len(), 3);
     let plan = Plan { control_steps: 3, actions: &actions };
     let mut batch = about_to_break(&model, Wide, 2);
-    let (_, everything) = Seen::rollout(
-        &mut batch.copies(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]),
-        plan,
-        &mut || false,
-    );
+    let copies = &mut batch.copies(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    let everything = Seen::rollout(copies, plan);
     let mut seen = Seen::new(&batch, 3);
     let output = RolloutOutput {
         progress_m: &mut seen.progress_m,
@@ -150,7 +146,7 @@ fn what_is_not_wanted_is_not_written_and_changes_nothing() {
         magnet_pose: &mut [],
         observation: &mut [],
     };
-    assert!(batch.rollout(plan, output, &mut || false));
+    batch.rollout(plan, output, &Interruption::never()).expect("nothing stops it");
     assert_eq!(seen.progress_m, everything.progress_m);
     assert_eq!(seen.robot_pose, everything.robot_pose);
     assert!(seen.observation.iter().all(|number| number.is_nan()));
@@ -176,29 +172,5 @@ fn copies_go_on_as_their_originals_and_leave_them_alone() {
             }
             assert_eq!(copies.factors()[2 * Model::PARAMETERS.len()..][..4][3], 1.25);
         }
-    }
-}
-
-#[test]
-fn an_interrupted_rollout_stops_and_says_so() {
-    let model = model("three magnets");
-    for threads in [1, 2] {
-        let mut batch = about_to_break(&model, Wide, threads);
-        // Seconds, if nobody stopped it.
-        let control_steps = 20_000;
-        let actions = vec![0.0; control_steps * ROBOTS.len() * observe::action_size(&model)];
-        let plan = Plan { control_steps, actions: &actions };
-        let mut output = Seen::new(&batch, 0);
-        output.progress_m = vec![0.0; control_steps * ROBOTS.len()];
-        output.status = vec![0; control_steps * ROBOTS.len()];
-        output.robot_pose = vec![0.0; 3 * control_steps * ROBOTS.len()];
-        let rows = RolloutOutput {
-            progress_m: &mut output.progress_m,
-            status: &mut output.status,
-            robot_pose: &mut output.robot_pose,
-            magnet_pose: &mut [],
-            observation: &mut [],
-        };
-        assert!(!batch.rollout(plan, rows, &mut || true));
     }
 }

@@ -1,12 +1,40 @@
 //! One control step of a block: actions in, solver steps, what was seen out.
 
 use crate::actuate::command;
+use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::math::sin_cos;
 use crate::lanes::{InstructionSet, Row};
 use crate::model::Model;
 use crate::observe;
 use crate::state::{Block, Status};
 use crate::step::Steps;
+
+/// Steps times unknowns between two looks at an interruption: some milliseconds.
+const PIECE: usize = 1 << 12;
+
+/// Solver steps of a block, unless they are stopped on the way.
+pub(crate) fn advance_block<R: Row>(
+    model: &Model,
+    block: &mut Block<R>,
+    steps: u32,
+    interruption: &Interruption<'_>,
+) -> Result<(), Interrupted>
+where
+    Block<R>: Steps,
+{
+    let set = InstructionSet::widest();
+    let piece = (PIECE / model.coordinates.count.max(1)).max(1) as u32;
+    let mut left = steps;
+    while left > 0 {
+        if interruption.stops() {
+            return Err(Interrupted);
+        }
+        let now = left.min(piece);
+        block.advance_on(set, model, now);
+        left -= now;
+    }
+    Ok(())
+}
 
 /// How far the centre has moved towards where the head was.
 fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
@@ -40,7 +68,9 @@ pub(super) fn control_block<R: Row>(
     first: usize,
     actions: &[f64],
     rows: ControlRows<'_>,
-) where
+    interruption: &Interruption<'_>,
+) -> Result<(), Interrupted>
+where
     Block<R>: Steps,
 {
     let count = rows.status.len();
@@ -56,7 +86,7 @@ pub(super) fn control_block<R: Row>(
     for lane in 0..count {
         block.robot_before[lane] = block.robot_pose(model, lane);
     }
-    block.advance_on(InstructionSet::widest(), model, model.steps_per_control);
+    advance_block(model, block, model.steps_per_control, interruption)?;
     let width = observe::size(model);
     for lane in 0..count {
         rows.progress_m[lane] = progress_m(block.robot_before[lane], block.robot_pose(model, lane));
@@ -65,4 +95,5 @@ pub(super) fn control_block<R: Row>(
     for (lane, row) in rows.observation.chunks_mut(width).enumerate() {
         observe::write(model, block, lane, row);
     }
+    Ok(())
 }

@@ -1,26 +1,29 @@
 //! A batch: many environments of one model, stepped together on all cores.
 
+mod blocks;
 mod control;
+mod episode;
 mod pool;
 mod rollout;
 mod snapshot;
 mod view;
 
-pub(crate) use pool::Pool;
+pub(crate) use control::advance_block;
+pub use episode::Start;
+pub use pool::Pool;
 pub use rollout::{Plan, RolloutOutput};
 pub use snapshot::SnapshotError;
 pub use view::View;
 
-use crate::lanes::{InstructionSet, Row, WIDE, WIDE_SINGLE};
+use crate::interruption::{Interrupted, Interruption};
+use crate::lanes::{WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
-use crate::reset::{Draws, StartPose, reset, scene_start};
+use crate::reset::StartPose;
 use crate::scene::Precision;
 use crate::state::{Block, Counters, Status};
-use crate::step::Steps;
-use control::{ControlRows, control_block};
-use rayon::iter::{IndexedParallelIterator, ParallelIterator};
-use rayon::slice::ParallelSliceMut;
+use blocks::{control_step, each_block, lanes_of, new_blocks, place, place_mut, settle};
+use episode::Settings;
 use rollout::rollout;
 use std::sync::Arc;
 
@@ -65,6 +68,9 @@ macro_rules! with_blocks {
     };
 }
 
+/// Entries of a table that one thread writes sooner than many threads are woken.
+const FEW: usize = 1 << 14;
+
 /// Where a step writes what it saw, one row per environment.
 pub struct StepOutput<'a> {
     /// Shape [environments × observation].
@@ -79,23 +85,55 @@ impl Batch {
     /// `count` environments at rest in the scene's start pose; each waits for its first
     /// [`reset`](Self::reset). `threads`: none for one per core.
     pub fn new(model: Arc<Model>, count: usize, lanes: LaneChoice, threads: Option<usize>) -> Self {
+        let made = Self::new_unless(&Interruption::never(), model, count, lanes, threads);
+        made.expect("nothing stops it")
+    }
+
+    /// See [`new`](Self::new).
+    ///
+    /// # Errors
+    /// The call was stopped.
+    pub fn new_unless(
+        interruption: &Interruption<'_>,
+        model: Arc<Model>,
+        count: usize,
+        lanes: LaneChoice,
+        threads: Option<usize>,
+    ) -> Result<Self, Interrupted> {
+        let (pool, on) = (Pool::new(threads), interruption);
         let blocks = match (lanes, model.scene.solver.precision) {
-            (LaneChoice::Wide, Precision::Double) => Blocks::Wide(new_blocks(&model, count)),
-            (LaneChoice::Scalar, Precision::Double) => Blocks::Scalar(new_blocks(&model, count)),
-            (LaneChoice::Wide, Precision::Single) => Blocks::WideSingle(new_blocks(&model, count)),
+            (LaneChoice::Wide, Precision::Double) => {
+                Blocks::Wide(new_blocks(&model, count, &pool, on)?)
+            }
+            (LaneChoice::Scalar, Precision::Double) => {
+                Blocks::Scalar(new_blocks(&model, count, &pool, on)?)
+            }
+            (LaneChoice::Wide, Precision::Single) => {
+                Blocks::WideSingle(new_blocks(&model, count, &pool, on)?)
+            }
             (LaneChoice::Scalar, Precision::Single) => {
-                Blocks::ScalarSingle(new_blocks(&model, count))
+                Blocks::ScalarSingle(new_blocks(&model, count, &pool, on)?)
             }
         };
         let present: Vec<bool> = model.mesh.magnets.iter().map(|m| m.present).collect();
-        Self {
+        Ok(Self {
             factors: vec![1.0; count * Model::PARAMETERS.len()],
             present: present.repeat(count),
-            pool: Pool::new(threads),
+            pool,
             model,
             count,
             blocks,
-        }
+        })
+    }
+
+    /// What so many environments take in memory [bytes].
+    pub fn bytes(model: &Arc<Model>, count: usize, lanes: LaneChoice) -> usize {
+        let one = Self::new(Arc::clone(model), 1, lanes, Some(1));
+        let settings = size_of::<f64>() * one.factors.len() + one.present.len();
+        with_blocks!(&one.blocks, blocks => {
+            let blocks_needed = count.div_ceil(lanes_of(blocks));
+            blocks_needed.saturating_mul(blocks[0].bytes()).saturating_add(count.saturating_mul(settings))
+        })
     }
 
     /// The model.
@@ -143,51 +181,107 @@ impl Batch {
 
     /// Starts an episode in one environment. `start`: none for the scene's.
     pub fn reset(&mut self, environment: usize, seed: u64, episode: u64, start: Option<StartPose>) {
-        let model = &*self.model;
-        let start = start.unwrap_or_else(|| scene_start(model));
-        let parameters = Model::PARAMETERS.len();
-        let factors = &self.factors[environment * parameters..][..parameters];
-        let present = &self.present[environment * model.magnets()..][..model.magnets()];
-        let draws = Draws::new(seed, episode);
+        let Self { model, factors, present, .. } = self;
+        let settings = Settings { model, factors, present };
         with_blocks!(&mut self.blocks, blocks => {
             let (block, lane) = place_mut(blocks, environment);
-            reset(model, block, lane, start, factors, present, draws);
+            settings.start(block, lane, environment, Start { seed, episode, pose: start });
         });
+    }
+
+    /// Starts episodes: one entry per environment, none for those that go on as they are.
+    ///
+    /// # Errors
+    /// The call was stopped; all environments are as before.
+    pub fn reset_unless(
+        &mut self,
+        interruption: &Interruption<'_>,
+        starts: &[Option<Start>],
+    ) -> Result<(), Interrupted> {
+        let Self { model, factors, present, pool, .. } = self;
+        let settings = Settings { model, factors, present };
+        with_blocks!(&mut self.blocks, blocks => {
+            let lanes = lanes_of(blocks);
+            each_block(model, pool, interruption, blocks, |index, block| {
+                let first = index * lanes;
+                for (lane, start) in starts[first..].iter().take(lanes).enumerate() {
+                    if let Some(start) = *start {
+                        settings.start(block, lane, first + lane, start);
+                    }
+                }
+            })
+        })
     }
 
     /// One control step. `actions` in [−1, 1], shape [environments × action]; empty where the drive is not
     /// controlled. Everything in `actions` must be finite.
     pub fn step(&mut self, actions: &[f64], output: StepOutput<'_>) {
-        let model = Arc::clone(&self.model);
-        let pool = self.pool.get();
-        with_blocks!(&mut self.blocks, blocks => control_step(&model, blocks, pool, actions, output));
+        // Nothing stops it.
+        let _ = self.step_unless(&Interruption::never(), actions, output);
+    }
+
+    /// See [`step`](Self::step).
+    ///
+    /// # Errors
+    /// The call was stopped; all environments are as before.
+    pub fn step_unless(
+        &mut self,
+        interruption: &Interruption<'_>,
+        actions: &[f64],
+        output: StepOutput<'_>,
+    ) -> Result<(), Interrupted> {
+        let (model, pool) = (&*self.model, self.pool.get());
+        with_blocks!(&mut self.blocks, blocks => {
+            control_step(model, blocks, pool.as_deref(), actions, output, interruption);
+            settle(model, blocks, interruption)
+        })
     }
 
     /// The control steps of a plan, one after the other, in one call: bit for bit what as many calls of
-    /// [`step`](Self::step) give. `interrupted` is asked every few hundredths of a second whether to stop.
+    /// [`step`](Self::step) give.
     ///
-    /// Returns whether the plan was run to its end. Where it was not, some environments have gone further than
-    /// others.
+    /// # Errors
+    /// The call was stopped; all environments are as before.
     pub fn rollout(
         &mut self,
         plan: Plan<'_>,
         output: RolloutOutput<'_>,
-        interrupted: &mut dyn FnMut() -> bool,
-    ) -> bool {
-        let model = Arc::clone(&self.model);
-        let (count, pool) = (self.count, self.pool.get());
+        interruption: &Interruption<'_>,
+    ) -> Result<(), Interrupted> {
+        let (model, count, pool) = (&*self.model, self.count, self.pool.get());
         with_blocks!(&mut self.blocks, blocks => {
-            rollout(&model, blocks, count, pool, plan, output, interrupted)
+            rollout(model, blocks, count, pool.as_deref(), plan, output, interruption);
+            settle(model, blocks, interruption)
         })
+    }
+
+    /// What the bookkeeping of a plan takes beside its actions and output [bytes].
+    pub fn plan_bytes(&self, plan: &Plan<'_>) -> usize {
+        with_blocks!(&self.blocks, blocks => plan.bytes(blocks.len()))
     }
 
     /// `steps` solver steps without new actions.
     pub fn advance(&mut self, steps: u32) {
-        let model = Arc::clone(&self.model);
-        let pool = self.pool.get();
-        with_blocks!(&mut self.blocks, blocks => for_each(pool, blocks, |block| {
-            block.advance_on(InstructionSet::widest(), &model, steps);
-        }));
+        // Nothing stops it.
+        let _ = self.advance_unless(&Interruption::never(), steps);
+    }
+
+    /// See [`advance`](Self::advance).
+    ///
+    /// # Errors
+    /// The call was stopped; all environments are as before.
+    pub fn advance_unless(
+        &mut self,
+        interruption: &Interruption<'_>,
+        steps: u32,
+    ) -> Result<(), Interrupted> {
+        let model = &*self.model;
+        with_blocks!(&mut self.blocks, blocks => {
+            each_block(model, &self.pool, interruption, blocks, |_, block| {
+                // Where it was stopped, the block is put back.
+                let _ = advance_block(model, block, steps, interruption);
+            })
+        })
     }
 
     /// Writes the observations, shape [environments × observation].
@@ -218,6 +312,23 @@ impl Batch {
         })
     }
 
+    /// Writes a row of equal length for each environment, as `look` finds it.
+    ///
+    /// # Errors
+    /// The call was stopped; some rows have been written.
+    pub fn look_unless<T: Send>(
+        &self,
+        interruption: &Interruption<'_>,
+        table: &mut [T],
+        look: impl Fn(&View<'_>, &mut [T]) + Sync,
+    ) -> Result<(), Interrupted> {
+        let alone = Pool::new(Some(1));
+        let pool = if table.len() < FEW { &alone } else { &self.pool };
+        pool.fill(interruption, table, table.len() / self.count.max(1), |environment, row| {
+            self.view(environment, |view| look(&view, row));
+        })
+    }
+
     /// Columns of the state of one environment, see `snapshot.rs`.
     fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
         with_blocks!(&self.blocks, blocks => {
@@ -226,70 +337,31 @@ impl Batch {
         });
     }
 
-    fn read_column(&mut self, environment: usize, column: &[u8]) {
-        let model = Arc::clone(&self.model);
+    /// Reads the state of every environment, which `write` appends to an empty list of bytes.
+    ///
+    /// # Errors
+    /// The call was stopped; all environments are as before.
+    fn read_columns(
+        &mut self,
+        interruption: &Interruption<'_>,
+        write: impl Fn(usize, &mut Vec<u8>) + Sync,
+    ) -> Result<(), Interrupted> {
+        let Self { model, pool, count, .. } = self;
         with_blocks!(&mut self.blocks, blocks => {
-            let (block, lane) = place_mut(blocks, environment);
-            snapshot::read_lane(&model, block, lane, column);
-        });
+            let lanes = lanes_of(blocks);
+            each_block(model, pool, interruption, blocks, |index, block| {
+                let mut column = Vec::new();
+                let first = index * lanes;
+                for lane in 0..lanes.min(*count - first) {
+                    column.clear();
+                    write(first + lane, &mut column);
+                    snapshot::read_lane(model, block, lane, &column);
+                }
+            })
+        })
     }
-}
 
-fn new_blocks<R: Row>(model: &Model, count: usize) -> Vec<Block<R>> {
-    (0..count.div_ceil(R::LANES)).map(|_| Block::new(model)).collect()
-}
-
-fn place<R: Row>(blocks: &[Block<R>], environment: usize) -> (&Block<R>, usize) {
-    (&blocks[environment / R::LANES], environment % R::LANES)
-}
-
-fn place_mut<R: Row>(blocks: &mut [Block<R>], environment: usize) -> (&mut Block<R>, usize) {
-    (&mut blocks[environment / R::LANES], environment % R::LANES)
-}
-
-fn for_each<B: Send>(
-    pool: Option<&rayon::ThreadPool>,
-    blocks: &mut [B],
-    work: impl Fn(&mut B) + Sync,
-) {
-    match pool {
-        None => blocks.iter_mut().for_each(work),
-        Some(pool) => pool.install(|| blocks.par_chunks_mut(1).for_each(|one| work(&mut one[0]))),
-    }
-}
-
-/// Blocks with the rows of the output that belong to each.
-fn control_step<R: Row>(
-    model: &Model,
-    blocks: &mut [Block<R>],
-    pool: Option<&rayon::ThreadPool>,
-    actions: &[f64],
-    output: StepOutput<'_>,
-) where
-    Block<R>: Steps,
-{
-    let width = observe::size(model);
-    let work = |first: usize, block: &mut Block<R>, rows: ControlRows<'_>| {
-        control_block(model, block, first, actions, rows);
-    };
-    match pool {
-        None => {
-            let rows = output.observation.chunks_mut(R::LANES * width);
-            let rows = rows
-                .zip(output.progress_m.chunks_mut(R::LANES))
-                .zip(output.status.chunks_mut(R::LANES));
-            for (index, (block, rows)) in blocks.iter_mut().zip(rows).enumerate() {
-                work(index * R::LANES, block, ControlRows::new(rows));
-            }
-        }
-        Some(pool) => pool.install(|| {
-            let rows = output.observation.par_chunks_mut(R::LANES * width);
-            let rows = rows
-                .zip(output.progress_m.par_chunks_mut(R::LANES))
-                .zip(output.status.par_chunks_mut(R::LANES));
-            blocks.par_chunks_mut(1).zip(rows).enumerate().for_each(|(index, (block, rows))| {
-                work(index * R::LANES, &mut block[0], ControlRows::new(rows));
-            });
-        }),
+    fn pool(&self) -> &Pool {
+        &self.pool
     }
 }

@@ -1,14 +1,27 @@
 //! A thread pool that survives `fork`.
 
+use crate::interruption::{Interrupted, Interruption};
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Rows that are written between two looks at an interruption.
+const ROWS: usize = 64;
 
 /// Threads of one batch. A forked child inherits the object but not the threads, and joining threads
 /// that do not exist hangs; so the pool remembers its process and an inherited one is left alone.
 #[derive(Debug)]
 pub struct Pool {
     threads: usize,
+    running: Mutex<Running>,
+}
+
+/// The threads, once they are needed, and the process that has them.
+#[derive(Debug)]
+struct Running {
     owner: u32,
-    pool: Option<ThreadPool>,
+    pool: Option<Arc<ThreadPool>>,
 }
 
 impl Pool {
@@ -17,7 +30,7 @@ impl Pool {
     pub fn new(threads: Option<usize>) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, |n| n.get());
         let threads = threads.unwrap_or_else(cores).max(1);
-        Self { threads, owner: std::process::id(), pool: None }
+        Self { threads, running: Mutex::new(Running { owner: std::process::id(), pool: None }) }
     }
 
     /// Number of threads.
@@ -26,31 +39,70 @@ impl Pool {
     }
 
     /// The threads of this process; none where one thread does it all, or no thread can be started.
-    pub fn get(&mut self) -> Option<&ThreadPool> {
+    pub fn get(&self) -> Option<Arc<ThreadPool>> {
         if self.threads == 1 {
             return None;
         }
-        if self.owner != std::process::id() {
-            self.abandon();
-            self.owner = std::process::id();
+        let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
+        running.leave_inherited();
+        if running.pool.is_none() {
+            let builder = ThreadPoolBuilder::new().num_threads(self.threads);
+            running.pool = builder.build().ok().map(Arc::new);
         }
-        if self.pool.is_none() {
-            self.pool = ThreadPoolBuilder::new().num_threads(self.threads).build().ok();
-        }
-        self.pool.as_ref()
+        running.pool.clone()
     }
 
-    fn abandon(&mut self) {
-        if let Some(inherited) = self.pool.take() {
-            std::mem::forget(inherited);
+    /// Does the work on each piece of a table, which it is given with its index; on some of them where it is stopped.
+    pub fn each<T: Send>(
+        &self,
+        interruption: &Interruption<'_>,
+        table: &mut [T],
+        piece: usize,
+        work: impl Fn(usize, &mut [T]) + Sync,
+    ) {
+        let pool = if table.len() > piece { self.get() } else { None };
+        let work = |(index, entries): (usize, &mut [T])| {
+            if !interruption.stops() {
+                work(index, entries);
+            }
+        };
+        interruption.run(pool.as_deref(), || match pool {
+            None => table.chunks_mut(piece).enumerate().for_each(work),
+            Some(_) => table.par_chunks_mut(piece).enumerate().for_each(work),
+        });
+    }
+
+    /// Writes each row of `width` entries of a table, which `write` is given with its index.
+    ///
+    /// # Errors
+    /// The call was stopped; some rows have been written.
+    pub fn fill<T: Send>(
+        &self,
+        interruption: &Interruption<'_>,
+        table: &mut [T],
+        width: usize,
+        write: impl Fn(usize, &mut [T]) + Sync,
+    ) -> Result<(), Interrupted> {
+        self.each(interruption, table, ROWS * width.max(1), |index, rows| {
+            let rows = rows.chunks_mut(width).enumerate();
+            rows.for_each(|(k, row)| write(ROWS * index + k, row));
+        });
+        interruption.last_asked()
+    }
+}
+
+impl Running {
+    /// Forgets the threads of the process that this one was forked from.
+    fn leave_inherited(&mut self) {
+        if self.owner != std::process::id() {
+            self.owner = std::process::id();
+            std::mem::forget(self.pool.take());
         }
     }
 }
 
-impl Drop for Pool {
+impl Drop for Running {
     fn drop(&mut self) {
-        if self.owner != std::process::id() {
-            self.abandon();
-        }
+        self.leave_inherited();
     }
 }

@@ -5,19 +5,15 @@
 
 use super::control::{ControlRows, control_block};
 use super::view::View;
+use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
 use crate::model::Model;
 use crate::state::Block;
 use crate::step::Steps;
 use rayon::ThreadPool;
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
-use rayon::slice::ParallelSliceMut;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
-
-/// How often whoever asked for a rollout may stop it.
-const WATCH: Duration = Duration::from_millis(50);
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelIterator, IntoParallelRefMutIterator, ParallelIterator,
+};
 
 /// The actions of T control steps.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +47,13 @@ struct Instant<'a> {
     magnet_pose: &'a mut [f64],
 }
 
+impl Plan<'_> {
+    /// What dealing the rows of its output out to so many blocks takes [bytes].
+    pub(super) fn bytes(&self, blocks: usize) -> usize {
+        self.control_steps.saturating_mul(blocks).saturating_mul(size_of::<Instant<'_>>())
+    }
+}
+
 /// See [`super::Batch::rollout`].
 pub(super) fn rollout<R: Row>(
     model: &Model,
@@ -59,23 +62,23 @@ pub(super) fn rollout<R: Row>(
     pool: Option<&ThreadPool>,
     plan: Plan<'_>,
     output: RolloutOutput<'_>,
-    interrupted: &mut dyn FnMut() -> bool,
-) -> bool
-where
+    interruption: &Interruption<'_>,
+) where
     Block<R>: Steps,
 {
-    let stop = AtomicBool::new(false);
     let instants = by_block(blocks, count, plan.control_steps, output);
-    let work = |(index, (block, instants)): (usize, (&mut [Block<R>], Vec<Instant<'_>>))| {
-        trajectory(model, &mut block[0], index * R::LANES, plan, instants, &stop);
+    let work = |(index, (block, instants)): (usize, (&mut Block<R>, Vec<Instant<'_>>))| {
+        if block.begin(interruption) {
+            // Where it was stopped, the block is put back.
+            let _ = trajectory(model, block, index * R::LANES, plan, instants, interruption);
+        }
     };
-    watched(pool, &stop, interrupted, || match pool {
-        None => blocks.chunks_mut(1).zip(instants).enumerate().for_each(work),
+    interruption.run(pool, || match pool {
+        None => blocks.iter_mut().zip(instants).enumerate().for_each(work),
         Some(_) => {
-            blocks.par_chunks_mut(1).zip(instants.into_par_iter()).enumerate().for_each(work)
+            blocks.par_iter_mut().zip(instants.into_par_iter()).enumerate().for_each(work);
         }
     });
-    !stop.load(Relaxed)
 }
 
 /// All control steps of a block whose first environment is `first`.
@@ -85,19 +88,18 @@ fn trajectory<R: Row>(
     first: usize,
     plan: Plan<'_>,
     instants: Vec<Instant<'_>>,
-    stop: &AtomicBool,
-) where
+    interruption: &Interruption<'_>,
+) -> Result<(), Interrupted>
+where
     Block<R>: Steps,
 {
     let per_step = plan.actions.len() / plan.control_steps.max(1);
     for (step, instant) in instants.into_iter().enumerate() {
-        if stop.load(Relaxed) {
-            return;
-        }
         let actions = &plan.actions[per_step * step..][..per_step];
-        control_block(model, block, first, actions, instant.control);
+        control_block(model, block, first, actions, instant.control, interruption)?;
         note_poses(model, block, instant.robot_pose, instant.magnet_pose);
     }
+    Ok(())
 }
 
 fn note_poses<R: Row>(
@@ -116,7 +118,7 @@ fn note_poses<R: Row>(
     for (lane, rows) in magnet_pose.chunks_mut(magnet_pose.len() / lanes).enumerate() {
         let view = View::new(model, block, lane);
         for (magnet, row) in rows.chunks_mut(rows.len() / model.magnets()).enumerate() {
-            row.copy_from_slice(&view.magnet_pose(magnet));
+            view.write_magnet_pose(magnet, row);
         }
     }
 }
@@ -150,34 +152,4 @@ fn by_block<'a, R: Row>(
 /// The first numbers of what is left.
 fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     rest.split_off_mut(..count).unwrap_or_default()
-}
-
-/// Does the work on the threads of a pool, or on one where there is none, and sets `stop` where the calling thread
-/// is told to: it alone learns of signals.
-fn watched(
-    pool: Option<&ThreadPool>,
-    stop: &AtomicBool,
-    interrupted: &mut dyn FnMut() -> bool,
-    work: impl FnOnce() + Send,
-) {
-    let (working, ended) = channel::<()>();
-    let work = move || {
-        work();
-        drop(working);
-    };
-    let mut watch = || {
-        while ended.recv_timeout(WATCH) == Err(RecvTimeoutError::Timeout) {
-            stop.fetch_or(interrupted(), Relaxed);
-        }
-    };
-    match pool {
-        None => std::thread::scope(|scope| {
-            scope.spawn(work);
-            watch();
-        }),
-        Some(pool) => pool.in_place_scope(|scope| {
-            scope.spawn(|_| work());
-            watch();
-        }),
-    }
 }

@@ -5,6 +5,7 @@
 //! lanes. Numbers are little-endian `f64`, which hold those of a scene in single precision too.
 
 use super::Batch;
+use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::{Number, Row};
 use crate::model::Model;
 use crate::reset::apply_parameters;
@@ -39,17 +40,40 @@ pub enum SnapshotError {
 impl Batch {
     /// Everything that changes in time.
     pub fn snapshot(&self) -> Vec<u8> {
-        let size = self.column_bytes();
-        let mut out = Vec::with_capacity(HEADER + self.count() * size);
-        out.extend_from_slice(MAGIC);
-        out.extend((self.count() as u64).to_le_bytes());
-        out.extend((size as u64).to_le_bytes());
-        out.extend(fingerprint(self.model()).to_le_bytes());
-        for environment in 0..self.count() {
-            self.write_column(environment, &mut out);
-            self.write_settings(environment, &mut out);
-        }
+        let mut out = vec![0; self.snapshot_bytes()];
+        // Nothing stops it.
+        let _ = self.snapshot_unless(&Interruption::never(), &mut out);
         out
+    }
+
+    /// Length of a snapshot [bytes].
+    pub fn snapshot_bytes(&self) -> usize {
+        HEADER + self.count() * self.column_bytes()
+    }
+
+    /// Writes a snapshot of just that length.
+    ///
+    /// # Errors
+    /// The call was stopped; what is written is no snapshot.
+    pub fn snapshot_unless(
+        &self,
+        interruption: &Interruption<'_>,
+        out: &mut [u8],
+    ) -> Result<(), Interrupted> {
+        let size = self.column_bytes();
+        let (header, columns) = out.split_at_mut(HEADER);
+        let numbers = [self.count() as u64, size as u64, fingerprint(self.model())];
+        header[..8].copy_from_slice(MAGIC);
+        let places = header[8..].chunks_exact_mut(8);
+        places
+            .zip(numbers)
+            .for_each(|(place, number)| place.copy_from_slice(&number.to_le_bytes()));
+        self.pool().fill(interruption, columns, size, |environment, column| {
+            let mut bytes = Vec::with_capacity(size);
+            self.write_column(environment, &mut bytes);
+            self.write_settings(environment, &mut bytes);
+            column.copy_from_slice(&bytes);
+        })
     }
 
     /// Takes a snapshot over.
@@ -57,6 +81,34 @@ impl Batch {
     /// # Errors
     /// A snapshot of another scene or size, or one that is damaged; nothing is changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
+        self.restore_unless(&Interruption::never(), bytes).unwrap_or(Ok(()))
+    }
+
+    /// See [`restore`](Self::restore).
+    ///
+    /// # Errors
+    /// The call was stopped; nothing is changed then.
+    pub fn restore_unless(
+        &mut self,
+        interruption: &Interruption<'_>,
+        bytes: &[u8],
+    ) -> Result<Result<(), SnapshotError>, Interrupted> {
+        if let Err(error) = self.check(bytes) {
+            return Ok(Err(error));
+        }
+        let (size, settings) = (self.column_bytes(), self.settings_bytes());
+        let column = |environment: usize| {
+            bytes[HEADER + size * environment..][..size].split_at(size - settings)
+        };
+        self.read_columns(interruption, |environment, state| {
+            state.extend_from_slice(column(environment).0);
+        })?;
+        (0..self.count()).for_each(|k| self.read_settings(k, column(k).1));
+        Ok(Ok(()))
+    }
+
+    /// Whether a snapshot is one of this batch.
+    fn check(&self, bytes: &[u8]) -> Result<(), SnapshotError> {
         let size = self.column_bytes();
         let malformed = SnapshotError::Malformed(bytes.len());
         if bytes.len() < HEADER || &bytes[..8] != MAGIC {
@@ -79,28 +131,38 @@ impl Batch {
             let code = column[size - settings - 1];
             Status::from_code(code).ok_or(SnapshotError::StatusCode(code))?;
         }
-        for (environment, column) in columns.chunks(size).enumerate() {
-            self.read_settings(environment, &column[size - settings..]);
-            self.read_column(environment, &column[..size - settings]);
-        }
         Ok(())
     }
 
     /// A batch of its own, as this one in lanes and threads, whose environment k is a copy of `environments[k]`: its
     /// state and its settings for the next reset, bit for bit.
     pub fn copies(&self, environments: &[usize]) -> Self {
-        let model = Arc::clone(self.model());
-        let mut batch = Self::new(model, environments.len(), self.lanes(), Some(self.threads()));
-        let mut bytes = Vec::new();
+        let copied = self.copies_unless(&Interruption::never(), environments);
+        copied.expect("nothing stops it")
+    }
+
+    /// See [`copies`](Self::copies).
+    ///
+    /// # Errors
+    /// The call was stopped.
+    pub fn copies_unless(
+        &self,
+        interruption: &Interruption<'_>,
+        environments: &[usize],
+    ) -> Result<Self, Interrupted> {
+        let (model, count) = (Arc::clone(self.model()), environments.len());
+        let (lanes, threads) = (self.lanes(), Some(self.threads()));
+        let mut batch = Self::new_unless(interruption, model, count, lanes, threads)?;
+        batch.read_columns(interruption, |copy, state| {
+            self.write_column(environments[copy], state);
+        })?;
+        let mut settings = Vec::new();
         for (copy, &environment) in environments.iter().enumerate() {
-            bytes.clear();
-            self.write_column(environment, &mut bytes);
-            let state = bytes.len();
-            self.write_settings(environment, &mut bytes);
-            batch.read_column(copy, &bytes[..state]);
-            batch.read_settings(copy, &bytes[state..]);
+            settings.clear();
+            self.write_settings(environment, &mut settings);
+            batch.read_settings(copy, &settings);
         }
-        batch
+        Ok(batch)
     }
 
     fn column_bytes(&self) -> usize {

@@ -16,7 +16,7 @@ pub struct View<'a> {
 
 impl<'a> View<'a> {
     /// One lane of a block.
-    pub(super) fn new<R: Row>(model: &'a Model, block: &'a Block<R>, lane: usize) -> Self {
+    pub(crate) fn new<R: Row>(model: &'a Model, block: &'a Block<R>, lane: usize) -> Self {
         Self { model, block, lane }
     }
 }
@@ -79,31 +79,35 @@ impl<R: Row> LaneView for Block<R> {
 
 /// Rows of numbers as arrays hold them; their length is that of the scene's dimensions.
 impl View<'_> {
-    /// Position of a node: x, y, in space also z [m].
-    pub fn node_m(&self, node: usize) -> Vec<f64> {
+    /// Writes the position of a node: x, y, in space also z [m].
+    pub fn write_node(&self, node: usize, row: &mut [f64]) {
         let place = self.block.node(self.model, node, self.lane);
-        place.iter().take(self.model.dimensions()).copied().collect()
+        row.copy_from_slice(&place.as_slice()[..row.len()]);
     }
-    /// Pose of a body magnet: in the plane x, y [m] and angle [rad], in space x, y, z [m] and the quaternion
-    /// w, x, y, z of its orientation, w ≥ 0.
-    pub fn magnet_pose(&self, magnet: usize) -> Vec<f64> {
+    /// Writes the pose of a body magnet: in the plane x, y [m] and angle [rad], in space x, y, z [m] and the
+    /// quaternion w, x, y, z of its orientation, w ≥ 0.
+    pub fn write_magnet_pose(&self, magnet: usize, row: &mut [f64]) {
         if self.model.dimensions() == 2 {
-            return self.block.planar_pose(self.model, magnet, self.lane).to_vec();
+            row.copy_from_slice(&self.block.planar_pose(self.model, magnet, self.lane));
+            return;
         }
         let Pose { position_m, orientation } = self.pose(magnet);
         let [x, y, z, w] = orientation.coords.into();
         let sign = if w < 0.0 { -1.0 } else { 1.0 };
-        position_m.iter().copied().chain([w, x, y, z].map(|q| sign * q)).collect()
+        row[..3].copy_from_slice(position_m.as_slice());
+        row[3..].copy_from_slice(&[w, x, y, z].map(|q| sign * q));
     }
-    /// Velocity of a body magnet: in the plane vx, vy [m/s] and rate [rad/s], in space vx, vy, vz [m/s] and the
-    /// angular velocity about x, y, z [rad/s].
-    pub fn magnet_velocity(&self, magnet: usize) -> Vec<f64> {
+    /// Writes the velocity of a body magnet: in the plane vx, vy [m/s] and rate [rad/s], in space vx, vy, vz [m/s]
+    /// and the angular velocity about x, y, z [rad/s].
+    pub fn write_magnet_velocity(&self, magnet: usize, row: &mut [f64]) {
         if self.model.dimensions() == 2 {
-            return self.block.planar_velocity(self.model, magnet, self.lane).to_vec();
+            row.copy_from_slice(&self.block.planar_velocity(self.model, magnet, self.lane));
+            return;
         }
         let Twist { linear_m_s, angular_rad_s } =
             self.block.velocity(self.model, magnet, self.lane);
-        linear_m_s.iter().chain(angular_rad_s.iter()).copied().collect()
+        row[..3].copy_from_slice(linear_m_s.as_slice());
+        row[3..].copy_from_slice(angular_rad_s.as_slice());
     }
     /// Centre of a drive magnet: x, y, in space also z [m] and yaw [rad]; none where the scene has no drive.
     pub fn drive_place(&self, drive_magnet: usize) -> Option<Vec<f64>> {
@@ -122,6 +126,29 @@ impl View<'_> {
         }
         let velocity = |(actuator, state): (&Actuator, _)| actuator.velocity(state);
         states(&self.model.program.actuators, &state).flat_map(velocity).collect()
+    }
+    /// Writes the centre of a drive magnet, see [`Self::drive_place`]; nothing where the scene has no drive.
+    pub fn write_drive_place(&self, drive_magnet: usize, row: &mut [f64]) {
+        if let Some(place) = self.drive_place(drive_magnet) {
+            row.copy_from_slice(&place);
+        }
+    }
+    /// A row of its own, see [`Self::write_node`].
+    pub fn node_m(&self, node: usize) -> Vec<f64> {
+        self.row([2, 3], |row| self.write_node(node, row))
+    }
+    /// A row of its own, see [`Self::write_magnet_pose`].
+    pub fn magnet_pose(&self, magnet: usize) -> Vec<f64> {
+        self.row([3, 7], |row| self.write_magnet_pose(magnet, row))
+    }
+    /// A row of its own, see [`Self::write_magnet_velocity`].
+    pub fn magnet_velocity(&self, magnet: usize) -> Vec<f64> {
+        self.row([3, 6], |row| self.write_magnet_velocity(magnet, row))
+    }
+    fn row(&self, [plane, space]: [usize; 2], write: impl Fn(&mut [f64])) -> Vec<f64> {
+        let mut row = vec![0.0; if self.model.dimensions() == 2 { plane } else { space }];
+        write(&mut row);
+        row
     }
     /// Mode and normal impulse of a contact point in the last step, and what the spring of its pad holds along the
     /// ground [N·s].

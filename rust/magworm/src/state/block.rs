@@ -1,5 +1,6 @@
 //! Environments of one model, one per lane.
 
+use super::kept::Kept;
 use super::rows::Rows;
 use crate::actuator::{ActuatorRows, Sizes};
 use crate::contact::Workspace;
@@ -147,6 +148,8 @@ pub struct Block<R: Row> {
     pub contact: Workspace<R>,
     /// Work done.
     pub counters: Counters,
+    /// The state before a call that may be stopped.
+    pub(super) kept: Kept<R>,
 }
 
 impl<R: Row> Block<R> {
@@ -191,6 +194,7 @@ impl<R: Row> Block<R> {
             robot_before: vec![[0.0; 3]; R::LANES].into(),
             contact: Workspace::new(model),
             counters: Counters::default(),
+            kept: Kept::default(),
         };
         (0..R::LANES).for_each(|lane| crate::reset::rest(model, &mut this, lane));
         this

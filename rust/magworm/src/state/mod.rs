@@ -1,8 +1,10 @@
 //! The state of environments side by side: rows of numbers, and where the parts of a robot are.
 
 mod block;
+mod kept;
 mod pose;
 mod rows;
+mod size;
 
 pub use block::{Block, Counters, Status};
 pub use pose::{Pose, Twist};

@@ -1,0 +1,65 @@
+//! Memory is asked for before it is used: what is not there is a `MemoryError`, not the end of the process.
+
+use pyo3::PyErr;
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use sysinfo::System;
+
+/// Requests below are made without being checked [bytes].
+const SMALL: usize = 1 << 20;
+
+/// From here on the machine is asked what it has [bytes].
+const LARGE: usize = 64 << 20;
+
+/// Checks that a call may use so many bytes, in however many pieces.
+///
+/// # Errors
+/// The machine has less to give, or a limit of the process is in the way.
+pub fn check_room(what: &str, bytes: usize) -> PyResult<()> {
+    if bytes < SMALL {
+        return Ok(());
+    }
+    // Reserving is refused beyond a limit of the process, and nothing is written. Pieces take a little more.
+    let reserved = Vec::<u8>::new().try_reserve_exact(bytes.saturating_add(bytes / 8));
+    if reserved.is_err() || (bytes >= LARGE && bytes > free_bytes()) {
+        return Err(missing(what, bytes));
+    }
+    Ok(())
+}
+
+/// An empty vector with room for so many numbers.
+pub fn reserved<T>(what: &str, count: usize) -> PyResult<Vec<T>> {
+    let bytes = count.saturating_mul(size_of::<T>());
+    check_room(what, bytes)?;
+    let mut numbers = Vec::new();
+    numbers.try_reserve_exact(count).map_err(|_| missing(what, bytes))?;
+    Ok(numbers)
+}
+
+/// So many zeros.
+pub fn zeros<T: Clone + Default>(what: &str, count: usize) -> PyResult<Vec<T>> {
+    let mut numbers = reserved(what, count)?;
+    numbers.resize(count, T::default());
+    Ok(numbers)
+}
+
+/// Number of things in a table of such sizes; as many as can be counted where it is more.
+pub fn product(sizes: &[usize]) -> usize {
+    sizes.iter().fold(1, |product: usize, &size| product.saturating_mul(size))
+}
+
+/// What this process may still take: of the machine, or of the control group that it runs in.
+fn free_bytes() -> usize {
+    let mut system = System::new();
+    system.refresh_memory();
+    let group = system.cgroup_limits().map(|group| group.total_memory.saturating_sub(group.rss));
+    let free = system.available_memory().min(group.unwrap_or(u64::MAX));
+    usize::try_from(free.saturating_add(system.free_swap())).unwrap_or(usize::MAX)
+}
+
+fn missing(what: &str, bytes: usize) -> PyErr {
+    let (needed, free) = (bytes as f64 / 1e9, free_bytes() as f64 / 1e9);
+    PyMemoryError::new_err(format!(
+        "{what} needs {needed:.3} GB; the machine has {free:.3} GB to give, or less where the process is limited"
+    ))
+}
