@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym import _magworm
+from magworm_gym.arguments import choice, numbers, shown, whole
 
 ALONG_HEIGHT_T = (0.0, 0.0, 1.22)
 """The magnets of the MagWorm paper: 1.22 T along the height."""
@@ -85,10 +86,9 @@ def wrench(
         ValueError: A size that is not positive, an order out of range, a quaternion of length 0, a
             value that is not finite, an unknown model, or shapes that do not fit.
     """
-    if model not in MODELS:
-        raise ValueError(f"model is {model!r}; allowed: {', '.join(MODELS)}")
-    if not 1 <= order <= MAX_ORDER:
-        raise ValueError(f"order is {order!r}; allowed: 1 to {MAX_ORDER}")
+    choice("model", model, MODELS)
+    if whole(order) not in range(1, MAX_ORDER + 1):
+        raise ValueError(f"order is {shown(order)}; allowed: 1 to {MAX_ORDER}")
     position, quaternion, drive, body = _vectors(
         position_m=(position_m, 3),
         quaternion_wxyz=(quaternion_wxyz, 4),
@@ -113,8 +113,12 @@ def wrench(
 
 def _vectors(**given: tuple[ArrayLike, int]) -> list[NDArray[np.float64]]:
     """Checks the last axis of each argument and broadcasts all others against each other."""
-    arrays = {name: np.asarray(value, np.float64) for name, (value, _) in given.items()}
-    for name, (_, length) in given.items():
+    arrays = {}
+    for name, (value, length) in given.items():
+        array = numbers(value)
+        if array is None:
+            raise ValueError(f"{name} is {shown(value)}; it must be numbers, (..., {length})")
+        arrays[name] = array
         if arrays[name].shape[-1:] != (length,):
             raise ValueError(
                 f"{name} has shape {arrays[name].shape}; its last axis must have length {length}"
@@ -134,8 +138,8 @@ def _table(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.ascontiguousarray(vectors.reshape(-1, vectors.shape[-1]))
 
 
-def _size(name: str, size_m: Sequence[float]) -> list[float]:
-    edges = [float(edge) for edge in size_m]
-    if len(edges) != 3 or not all(np.isfinite(edge) and edge > 0.0 for edge in edges):
-        raise ValueError(f"{name} is {size_m!r}; it must be three positive lengths")
+def _size(name: str, size_m: Sequence[float]) -> NDArray[np.float64]:
+    edges = numbers(size_m)
+    if edges is None or edges.shape != (3,) or not (np.isfinite(edges) & (edges > 0.0)).all():
+        raise ValueError(f"{name} is {shown(size_m)}; it must be three positive lengths")
     return edges

@@ -68,8 +68,7 @@ def record_scenes(
     Raises:
         ValueError: A time that is no whole number of steps.
     """
-    durations = np.broadcast_to(np.asarray(duration_s, np.float64), len(scenes))
-    runs = _magworm.record_scenes(list(scenes), durations.tolist(), sample_s, nodes=nodes, threads=threads)
+    runs = _magworm.record_scenes(scenes, duration_s, sample_s, nodes=nodes, threads=threads)
     return [_recording(scene, sample_s, *run) for scene, run in zip(scenes, runs, strict=True)]
 
 

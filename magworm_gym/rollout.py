@@ -11,7 +11,7 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Trajectories
-from magworm_gym.arguments import action_rows
+from magworm_gym.arguments import numbers, shown
 from magworm_gym.outcome import judged
 from magworm_gym.tasks import Task
 
@@ -84,11 +84,14 @@ class Origin:
                     f"actions have {plans} plans for {count} environments; start must name where they begin"
                 )
             start = range(count)
-        chosen = np.asarray(start)
+        try:
+            chosen = np.asarray(start)
+        except (ValueError, RecursionError):  # ragged, or a list that holds itself
+            chosen = np.empty(())
         if chosen.dtype.kind not in "iu" or chosen.shape not in ((), (plans,)):
-            raise ValueError(f"start is {start!r}; it must be one index, or one for each plan ({plans})")
+            raise ValueError(f"start is {shown(start)}; it must be one index, or one for each plan ({plans})")
         if ((chosen < 0) | (chosen >= count)).any():
-            raise ValueError(f"start is {start!r}; allowed: indices from 0 to {count - 1}")
+            raise ValueError(f"start is {shown(start)}; allowed: indices from 0 to {count - 1}")
         if (self.episodes[chosen] < 0).any():
             raise ResetNeeded("an environment to start from was never reset: call reset() before rollout()")
         return np.broadcast_to(chosen, plans).astype(np.int64)
@@ -129,11 +132,13 @@ def roll_out(
     observations: bool,
 ) -> Rollout:
     """See :meth:`magworm_gym.MagWormVectorEnv.rollout`."""
-    shape = np.shape(actions)
+    values = numbers(actions)
     size = sum(part.size for part in origin.batch.action_specification)
-    if len(shape) != 3 or 0 in shape[:2]:
+    if values is None:
+        raise ValueError(f"actions are {shown(actions)}; they must be numbers of shape (T, K, {size})")
+    shape = values.shape
+    if len(shape) != 3 or 0 in shape[:2] or shape[2] != size:
         raise ValueError(f"actions have shape {shape}; expected (T, K, {size}), T and K 1 or more")
-    values = action_rows(actions, (*shape[:2], size))
     environments = origin.environments(start, shape[1])
     batch = origin.batch.copies(environments.tolist())
     task = origin.task.copies(environments)

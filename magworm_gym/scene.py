@@ -4,6 +4,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from magworm_gym._magworm import PRESETS, Scene, SceneError
+from magworm_gym.arguments import shown
 
 
 def load_scene(scene: str | PathLike[str] | Scene) -> Scene:
@@ -18,11 +19,34 @@ def load_scene(scene: str | PathLike[str] | Scene) -> Scene:
     """
     if isinstance(scene, Scene):
         return scene
-    name = fspath(scene)
+    name = fspath(scene) if isinstance(scene, (str, PathLike)) else None
     if name in PRESETS:
         return Scene.preset(name)
-    if Path(name).is_file():
-        return Scene.from_toml(Path(name).read_text(encoding="utf-8"))
+    if isinstance(name, str) and _is_file(name):
+        return Scene.from_toml(_read(Path(name)))
+    hint = "; a scene as text is read by Scene.from_toml" if name is not None and "\n" in name else ""
     raise SceneError(
-        f"scene is {name!r}; allowed: a preset ({', '.join(PRESETS)}) or the path of a TOML file"
+        f"scene is {shown(scene)}; allowed: a preset ({', '.join(PRESETS)}), the path of a TOML file, "
+        f"or a Scene{hint}"
     )
+
+
+def _is_file(name: str) -> bool:
+    """Whether a text is the path of a file; one that can be none, such as a long one, is not."""
+    try:
+        return Path(name).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        raise SceneError(
+            f"{path} is not UTF-8: byte 0x{error.object[error.start]:02x} in line {line}; allowed: a file "
+            "saved as UTF-8"
+        ) from error
+    except OSError as error:
+        raise SceneError(f"{path} cannot be read: {error.strerror}; allowed: a TOML file") from error

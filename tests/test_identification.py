@@ -173,9 +173,9 @@ def as_files(found: Identification, folder):
 def test_a_search_that_was_stopped_twice_goes_on_to_the_identical_result(tmp_path):
     whole, parts = tmp_path / "whole", tmp_path / "parts"
     expected = as_files(identify(short_problem(), whole, threads=1), whole)
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt, match=r"kept in .*parts.*resume=True"):
         identify(short_problem(), parts, progress=interrupted_at("search", 3))
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt, match=r"kept in .*parts.*resume=True"):
         identify(short_problem(), parts, resume=True, progress=interrupted_at("explore", 1))
     resumed = identify(short_problem(), parts, resume=True, threads=2)
     assert as_files(resumed, parts) == expected

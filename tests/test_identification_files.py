@@ -209,16 +209,20 @@ def test_the_command_says_what_is_wrong_in_a_sentence(capsys, arguments, message
     assert message in said.err and said.err.count("\n") == 1
 
 
-def test_ctrl_c_says_how_to_go_on(tmp_path, capsys, monkeypatch):
+@pytest.mark.parametrize("moment", ["make_problem", "identify", "write_results"])
+def test_ctrl_c_says_how_to_go_on_at_any_moment(tmp_path, capsys, monkeypatch, moment):
     csv = tmp_path / "worm.csv"
     words = command(capsys, "example-tracks", csv)[1].out.splitlines()[1].split()[1:-1]
+    if moment == "write_results":
+        monkeypatch.setattr("magworm_gym.cli.identify.identify", lambda *_, **__: None)
     monkeypatch.setattr(
-        "magworm_gym.cli.identify.identify", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt)
+        f"magworm_gym.cli.identify.{moment}", lambda *_, **__: (_ for _ in ()).throw(KeyboardInterrupt)
     )
-    monkeypatch.setattr(sys, "argv", ["magworm", *words, "fit"])
     code, said = command(capsys, *words, "fit")
     assert code == 130
     assert "To go on: magworm identify" in said.err and "fit --resume" in said.err
+    code, said = command(capsys, *words, "fit", "--resume")
+    assert said.err.count("--resume") == 1
 
 
 def test_a_missing_library_is_named_with_its_extra(tmp_path, capsys, monkeypatch):

@@ -19,7 +19,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     Args:
         arguments: Without the program's name; None for those of the process.
     """
-    parsed = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    parsed = _parser().parse_args(words, argparse.Namespace(words=words))
     try:
         parsed.run(parsed)
     except (ProblemError, SceneError, ImportError) as mistake:

@@ -133,16 +133,19 @@ def run(parsed: argparse.Namespace) -> None:
         ProblemError: A mistake in flags or files.
         KeyboardInterrupt: Stopped; how to go on has been printed.
     """
+    try:
+        _identify(parsed)
+    except KeyboardInterrupt:
+        words = parsed.words + ([] if parsed.resume else ["--resume"])
+        print(f"\nWhat was complete is kept. To go on: magworm {shlex.join(words)}", file=sys.stderr)
+        raise
+
+
+def _identify(parsed: argparse.Namespace) -> None:
     search = {name: value for name in SEARCH_FLAGS if (value := getattr(parsed, name)) is not None}
     problem = _problem(parsed, search)
-    try:
-        with ProgressBar(quiet=parsed.quiet) as progress:
-            found = identify(
-                problem, parsed.out, resume=parsed.resume, threads=parsed.threads, progress=progress
-            )
-    except KeyboardInterrupt:
-        _say_how_to_go_on(parsed)
-        raise
+    with ProgressBar(quiet=parsed.quiet) as progress:
+        found = identify(problem, parsed.out, resume=parsed.resume, threads=parsed.threads, progress=progress)
     write_results(found, parsed.out)
     if not parsed.quiet:
         print(_summary(found, parsed.out))
@@ -212,11 +215,6 @@ def _drive(parsed: argparse.Namespace) -> dict[str, Any]:
     if parsed.drive_x is None or parsed.drive_speed is None:
         raise ProblemError("only one of --drive-x and --drive-speed is given; allowed: both")
     return {"values": {"drive.motion": constant_drive(parsed)}}
-
-
-def _say_how_to_go_on(parsed: argparse.Namespace) -> None:
-    words = sys.argv[1:] + ([] if parsed.resume else ["--resume"])
-    print(f"\nWhat was complete is kept. To go on: magworm {shlex.join(words)}", file=sys.stderr)
 
 
 def _summary(found: Identification, out: Path) -> str:

@@ -86,7 +86,19 @@ def identify(
     Raises:
         ImportError: The library cmaes is missing; the sentence names the extra to install.
         ProblemError: Nothing within the bounds can be simulated, or the folder does not fit.
+        KeyboardInterrupt: Stopped; it says how to go on.
     """
+    try:
+        return _fitted(problem, out, resume, threads, progress)
+    except KeyboardInterrupt as stopped:
+        kept = f"what was complete is kept in {str(out)!r}; to go on, call identify with resume=True"
+        told = "nothing is kept, since no folder was given: out is None" if out is None else kept
+        raise KeyboardInterrupt(told) from stopped
+
+
+def _fitted(
+    problem: Problem, out: Path | None, resume: bool, threads: int | None, progress: Progress | None
+) -> Identification:
     evaluator = Evaluator(problem, threads)
     path = None if out is None else _open_folder(out, resume) / CANDIDATES
     ledger = Ledger(path, evaluator.losses, len(problem.space), problem.fingerprint)
