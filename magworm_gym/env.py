@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import action_rows
+from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.drawing import Frame
 from magworm_gym.infos import Infos, info_of
 from magworm_gym.rollout import Rollout
@@ -115,8 +116,9 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         Raises:
             ValueError: The seed or an option is not allowed; nothing is changed then.
         """
-        observations, infos = self._worms.reset(seed=seed, options=options)
-        super().reset(seed=None if seed is None else int(seed))
+        with Bookkeeping():
+            observations, infos = self._worms.reset(seed=seed, options=options)
+            super().reset(seed=None if seed is None else int(seed))
         return observations[0], info_of(infos, 0)
 
     def step(self, action: ArrayLike) -> tuple[Observations, float, bool, bool, Infos]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from magworm_gym.arguments import numbers, shown, whole
 
 if TYPE_CHECKING:
     from magworm_gym._magworm import Batch
@@ -79,38 +82,37 @@ def read_options(
 
 def _mapping(field: str, value: Any, allowed: Sequence[str]) -> Mapping[str, Any]:
     if not isinstance(value, Mapping):
-        raise ValueError(f"{field} is {value!r}; it must be a mapping with keys among {', '.join(allowed)}")
+        raise ValueError(
+            f"{field} is {shown(value)}; it must be a mapping with keys among {', '.join(allowed)}"
+        )
     for key in value:
         if key not in allowed:
-            raise ValueError(f"{field} has the key {key!r}; allowed: {', '.join(allowed)}")
+            raise ValueError(f"{field} has the key {shown(key)}; allowed: {', '.join(allowed)}")
     return value
 
 
 def _numbers(field: str, value: Any, num_envs: int, each: tuple[int, ...] = ()) -> NDArray[np.float64]:
     """Finite numbers of shape `each` per environment, from one of them or an array (N, *each)."""
-    try:
-        numbers = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
-        numbers = np.full(1, np.nan)
+    given = numbers(value)
     shape = (num_envs, *each)
-    if numbers.shape not in (each, shape) or not np.isfinite(numbers).all():
+    if given is None or given.shape not in (each, shape) or not np.isfinite(given).all():
         one = f"an array of shape {each} of finite numbers" if each else "a finite number"
-        raise ValueError(f"{field} is {value!r}; it must be {one} or an array of shape {shape} of them")
-    return np.broadcast_to(numbers, shape)
+        raise ValueError(f"{field} is {shown(value)}; it must be {one} or an array of shape {shape} of them")
+    return np.broadcast_to(given, shape)
 
 
 def _goal(value: Any, num_envs: int, option: GoalOption) -> NDArray[np.float64]:
     field = f'options["{option.name}"]'
     goals = _numbers(field, value, num_envs, option.shape)
     if (np.abs(goals) > option.limit).any():
-        raise ValueError(f"{field} is {value!r}; allowed: -{option.limit:g} to {option.limit:g}")
+        raise ValueError(f"{field} is {shown(value)}; allowed: -{option.limit:g} to {option.limit:g}")
     return goals.reshape(num_envs, option.size)
 
 
 def _mask(value: Any, num_envs: int) -> NDArray[np.bool_]:
     if not isinstance(value, np.ndarray) or value.shape != (num_envs,) or value.dtype != np.bool_:
         raise ValueError(
-            f'options["reset_mask"] is {value!r}; it must be a bool array of shape ({num_envs},)'
+            f'options["reset_mask"] is {shown(value)}; it must be a bool array of shape ({num_envs},)'
         )
     if not value.any():
         raise ValueError(
@@ -126,7 +128,7 @@ def _start(value: Any, num_envs: int, limits: Mapping[str, float]) -> NDArray[np
         field = f'options["start"]["{name}"]'
         start[:, column] = _numbers(field, fields.get(name, 0.0), num_envs)
         if (np.abs(start[:, column]) > limit).any():
-            raise ValueError(f"{field} is {fields[name]!r}; allowed: -{limit:g} to {limit:g}")
+            raise ValueError(f"{field} is {shown(fields[name])}; allowed: -{limit:g} to {limit:g}")
         if name.endswith("_deg"):
             start[:, column] = np.deg2rad(start[:, column])
     return start
@@ -138,10 +140,12 @@ def _present(value: Any, num_envs: int, magnets: int) -> NDArray[np.bool_]:
     for row, removed in zip(present, rows, strict=True):
         for magnet in removed:
             # bool is an int to Python, but a list of flags is not a list of magnets.
-            whole = isinstance(magnet, (int, np.integer)) and not isinstance(magnet, bool)
-            if not whole or not 0 <= magnet < magnets:
-                raise ValueError(f'options["removed"] has the magnet {magnet!r}; allowed: 0 to {magnets - 1}')
-            row[magnet] = False
+            index = whole(magnet)
+            if index is None or not 0 <= index < magnets:
+                raise ValueError(
+                    f'options["removed"] has the magnet {shown(magnet)}; allowed: 0 to {magnets - 1}'
+                )
+            row[index] = False
     return present
 
 
@@ -151,7 +155,7 @@ def _removed_rows(value: Any, num_envs: int) -> list[Sequence[Any]]:
     nested = isinstance(value, sequence) and [isinstance(part, sequence) for part in value]
     if nested is False or (any(nested) and not (all(nested) and len(value) == num_envs)):
         raise ValueError(
-            f'options["removed"] is {value!r}; it must be a sequence of magnets, '
+            f'options["removed"] is {shown(value)}; it must be a sequence of magnets, '
             f"or {num_envs} such sequences, one per environment"
         )
     return list(value) if any(nested) else [value] * num_envs
@@ -165,24 +169,26 @@ def _factors(value: Any, num_envs: int, names: Sequence[str]) -> dict[str, NDArr
     }
 
 
-def equip(batch: Batch, request: ResetOptions) -> None:
-    """Gives the environments of a reset their robots; all or none.
+@contextmanager
+def equipped(batch: Batch, request: ResetOptions) -> Iterator[None]:
+    """Gives the environments of a reset their robots; takes them back where the block is stopped or raises.
 
     Raises:
-        ValueError: A robot that cannot be simulated; nothing is changed then.
+        ValueError: A robot that cannot be simulated.
     """
     mask, scene = request.mask, batch.scene
     before = {name: batch.parameter(name) for name in batch.parameter_names}
+    present_before = batch.magnets_present()
     present = np.ones(scene.magnets, np.bool_)
     present[list(scene.removed)] = False
-    wanted = np.where(
-        mask[:, None], present if request.present is None else request.present, batch.magnets_present()
-    )
+    wanted = present if request.present is None else request.present
     try:
         for name, factors in before.items():
             batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))
-        batch.set_magnets_present(wanted)
-    except ValueError:
+        batch.set_magnets_present(np.where(mask[:, None], wanted, present_before))
+        yield
+    except BaseException:
         for name, factors in before.items():
             batch.set_parameter(name, factors)
+        batch.set_magnets_present(present_before)
         raise

@@ -19,6 +19,7 @@ from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
 
 from magworm_gym import snapshot
 from magworm_gym._magworm import Scene
+from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.infos import Infos, info_of
 from magworm_gym.vector_env import MagWormVectorEnv, Observations
 
@@ -85,15 +86,17 @@ class MagWormVecEnv(VecEnv):
     def reset(self) -> Observations:
         """Starts new episodes with the seeds and options given before. Returns observations (N, O)."""
         shared = self._options[0]
-        if all(options is shared or not (options or shared) for options in self._options):
-            observations, infos = self.worms.reset(seed=self._seeds, options=shared)
-            self.reset_infos = [info_of(infos, i) for i in range(self.num_envs)]
-        else:
-            observations = self._reset_one_by_one()
-        self._returns[:] = 0.0
-        self._lengths[:] = 0
-        self._reset_seeds()
-        self._reset_options()
+        with Bookkeeping() as books:
+            if all(options is shared or not (options or shared) for options in self._options):
+                observations, infos = self.worms.reset(seed=self._seeds, options=shared)
+                self.reset_infos = [info_of(infos, i) for i in range(self.num_envs)]
+            else:
+                books.begin()  # it is reset by several calls: all of them, or none
+                observations = self._reset_one_by_one()
+            self._returns[:] = 0.0
+            self._lengths[:] = 0
+            self._reset_seeds()
+            self._reset_options()
         return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
@@ -107,7 +110,18 @@ class MagWormVecEnv(VecEnv):
             Fresh arrays: observations (N, O) float32, of the new episode where one ended, rewards
             (N,) float32, dones (N,) bool; and N infos.
         """
-        observations, rewards, terminated, truncated, batch_infos = self.worms.step(self._actions)
+        with Bookkeeping():
+            return self._account(*self.worms.step(self._actions))
+
+    def _account(
+        self,
+        observations: Observations,
+        rewards: NDArray[np.float64],
+        terminated: NDArray[np.bool_],
+        truncated: NDArray[np.bool_],
+        batch_infos: Infos,
+    ) -> tuple[Observations, NDArray[np.float32], NDArray[np.bool_], list[Infos]]:
+        """What a step of the batch is to the statistics of episodes."""
         dones = terminated | truncated
         self._returns += rewards
         self._lengths += 1

@@ -17,11 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 from magworm_gym import snapshot
 from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
+from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.drawing import Drawing, Frame
 from magworm_gym.draws import next_episodes, uniform
 from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import judged, step_infos
-from magworm_gym.reset_options import equip, read_options, start_limits
+from magworm_gym.reset_options import equipped, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import load_scene
 from magworm_gym.spaces import AnyPart, box, layout
@@ -32,6 +33,8 @@ Observations = NDArray[np.float32]
 RENDER_MODES = ("human", "rgb_array")
 COUNTED = ("_seeds", "_episodes", "_elapsed_steps", "_ended", "_starts", "_goals")
 """Attributes that change in time, beside the simulator's state and the task's."""
+DRAWN = (*COUNTED, "_np_random", "_np_random_seed")
+"""Attributes that a reset changes before the simulator is asked."""
 TASK = "task_"
 """Before the names of a task's state."""
 
@@ -203,15 +206,15 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             dimensions=scene.dimensions,
             goal_option=self._task.goal_option,
         )
-        equip(self._batch, request)
-        if isinstance(seed, (int, np.integer)):
-            super().reset(seed=int(seed))
-        self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
-        self._goals[request.mask] = np.nan if request.goal is None else request.goal[request.mask]
-        episodes = next_episodes(self._seeds, self._episodes, seeds, request.mask, self.np_random)
-        self._start_episodes(request.mask, episodes)
-        infos: Infos = {}
-        self._add_reset_infos(infos, request.mask)
+        with Bookkeeping() as books, put_back(self, DRAWN), equipped(self._batch, request):
+            if isinstance(seed, (int, np.integer)):
+                super().reset(seed=int(seed))
+            self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
+            self._goals[request.mask] = np.nan if request.goal is None else request.goal[request.mask]
+            episodes = next_episodes(self._seeds, self._episodes, seeds, request.mask, self.np_random)
+            self._start_episodes(request.mask, episodes, books)
+            infos: Infos = {}
+            self._add_reset_infos(infos, request.mask)
         self._show()
         return self._observe(), infos
 
@@ -232,26 +235,12 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         """
         values = action_rows(actions, self._action_shape)
         resetting = self._due_to_reset()
-        stepping = ~resetting
-        simulated, progress_m, status = self._advance(values, resetting)
-        self._elapsed_steps += stepping
-        verdict = self._task.judge(self._batch, progress_m, stepping)
-        observations = self._observe(simulated)
-        outcome = judged(verdict, status, stepping, self._elapsed_steps >= self._max_episode_steps)
-        ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
-        same_step = self._autoreset is AutoresetMode.SAME_STEP
-        starting = ended if same_step else resetting
-        infos = step_infos(outcome, seen, stepping & ~starting)
-        if starting.any():
-            if same_step:
-                add(infos, "final_obs", rows(observations), starting)
-                infos |= {"final_info": step_infos(outcome, seen, starting), "_final_info": starting.copy()}
-            self._start_episodes(starting, self._episodes + 1)
-            observations = self._observe()
-            self._add_reset_infos(infos, starting)
-        self._ended = np.zeros_like(ended) if same_step else ended
+        with Bookkeeping() as books:
+            simulated = self._advance(values, resetting)
+            books.begin()
+            stepped = self._account(resetting, *simulated)
         self._show()
-        return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
+        return stepped
 
     def rollout(
         self,
@@ -340,19 +329,19 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             "autoreset": np.array(self._autoreset.value),
         }
 
-    def _start_episodes(self, mask: Flags, episodes: NDArray[np.int64]) -> None:
+    def _start_episodes(
+        self, mask: Flags, episodes: NDArray[np.int64], books: Bookkeeping | None = None
+    ) -> None:
         """Resets the simulation of the environments of mask, to their episodes (N,)."""
-        self._episodes = np.where(mask, episodes, self._episodes)
+        episodes = np.where(mask, episodes, self._episodes)
+        numbers = np.maximum(episodes, 0)
+        self._batch.reset(mask, self._seeds, numbers, start=self._starts)
+        if books is not None:
+            books.begin()
+        self._episodes = episodes
         self._elapsed_steps[mask] = 0
         self._ended[mask] = False
-        keys = self._seeds.astype(np.uint64), np.maximum(self._episodes, 0).astype(np.uint64)
-        placed = mask & ~np.isnan(self._starts[:, 0])
-        if placed.any():
-            self._batch.reset(placed, *keys, start=np.nan_to_num(self._starts))
-        if (mask & ~placed).any():
-            self._batch.reset(mask & ~placed, *keys)
-        drawn = uniform(self._seeds, np.maximum(self._episodes, 0), self._task.draws)
-        self._task.begin(self._batch, mask, self._goals, drawn)
+        self._task.begin(self._batch, mask, self._goals, uniform(self._seeds, numbers, self._task.draws))
         if self._drawing is not None:
             self._drawing.forget(mask)
 
@@ -375,6 +364,33 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             return self._batch.observe(), np.zeros(self.num_envs), self._batch.status()
         # The simulator advances all: what it makes of the others is dropped by their reset.
         return self._batch.step(np.where(resetting[:, None], 0.0, actions) if resetting.any() else actions)
+
+    def _account(
+        self,
+        resetting: Flags,
+        simulated: Observations,
+        progress_m: NDArray[np.float64],
+        status: NDArray[np.uint8],
+    ) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
+        """What a step of the simulator, whose arrays are given, is to the task and the episodes."""
+        stepping = ~resetting
+        self._elapsed_steps += stepping
+        verdict = self._task.judge(self._batch, progress_m, stepping)
+        observations = self._observe(simulated)
+        outcome = judged(verdict, status, stepping, self._elapsed_steps >= self._max_episode_steps)
+        ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
+        same_step = self._autoreset is AutoresetMode.SAME_STEP
+        starting = ended if same_step else resetting
+        infos = step_infos(outcome, seen, stepping & ~starting)
+        if starting.any():
+            if same_step:
+                add(infos, "final_obs", rows(observations), starting)
+                infos |= {"final_info": step_infos(outcome, seen, starting), "_final_info": starting.copy()}
+            self._start_episodes(starting, self._episodes + 1)
+            observations = self._observe()
+            self._add_reset_infos(infos, starting)
+        self._ended = np.zeros_like(ended) if same_step else ended
+        return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
 
     def _observe(self, simulated: Observations | None = None) -> Observations:
         """What the simulator observes, or has, with what the task appends to it."""
