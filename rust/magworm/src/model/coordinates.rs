@@ -10,7 +10,7 @@
 //! | plane | x, y | x, y, θ | | 2 |
 //! | space | x, y, z | x, y, z, rotation about x, y, z | twist about its tangent | 3 |
 
-use super::mesh::Mesh;
+use super::Mesh;
 use crate::lanes::chain::Chain;
 
 /// Which unknowns are used.

@@ -5,7 +5,7 @@
 //! magnet has a moment of inertia about its tangent, up and side, and a soft element about its tangent.
 
 use super::coordinates::{Anchor, Coordinates};
-use super::mesh::{Element, Mesh};
+use super::{Element, Mesh};
 use crate::scene::Scene;
 
 /// A contribution to the diagonal mass of one unknown.

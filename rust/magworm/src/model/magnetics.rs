@@ -1,6 +1,6 @@
 //! Compiled wrench of the drive magnets on the body magnets.
 
-use super::mesh::{Mesh, MeshMagnet};
+use super::{Mesh, MeshMagnet};
 use crate::magnetic::{self, Cuboid, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair};
 use crate::scene::{Drive, MagnetModel, Scene};
 use nalgebra::Vector3;

@@ -1,21 +1,19 @@
 //! `compile(Scene) → Model`: everything that does not change in time, shared by all environments.
 
 mod coordinates;
-mod direction;
 mod explain;
 mod explicit_limit;
 mod inertia;
 mod line;
 mod magnetics;
-mod mesh;
 mod phases;
-pub(crate) mod shape;
+mod shape;
 mod waves;
 
+pub use crate::scene::{Element, Mesh, MeshMagnet, Sole};
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
 pub use inertia::MassPart;
 pub use magnetics::{Magnetics, PairModel};
-pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use phases::Phase;
 pub use shape::Shape;
 pub use waves::Wave;

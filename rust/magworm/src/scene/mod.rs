@@ -11,13 +11,16 @@
 //! vertical +y, anticlockwise seen from above: it turns x towards −z.
 
 mod accuracy;
+pub(crate) mod bends;
 mod body;
 mod check;
+mod direction;
 mod drive;
 mod edit;
 mod error;
 mod fields;
 mod lines;
+mod mesh;
 mod parse;
 mod preset;
 mod rules;
@@ -33,6 +36,8 @@ pub use body::{
 };
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
+#[doc(hidden)] // for the project's own tests
+pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub(crate) use segments::Plan;

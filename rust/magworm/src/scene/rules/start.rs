@@ -1,13 +1,12 @@
 //! Rules of a bent start: parts that the mesh can bend, by angles that its nodes can have.
 
+use super::super::bends::{angle_rad, bending_lengths_m, strains};
 use super::super::error::Problem;
 use super::super::fields::GREATEST_BEND_DEG;
 use super::super::schema::quantity;
-use super::super::{Scene, Start};
+use super::super::{Mesh, Scene, Start};
 use super::{require, rounded};
 use crate::lanes::math::degrees;
-use crate::model::Mesh;
-use crate::model::shape::{angle_rad, bending_lengths_m, strains};
 
 /// Ours: greatest angle between the elements at a node, and greatest twist from one to the next [°]. At 180° neither the
 /// direction of the turn nor the frames are defined.

@@ -1,8 +1,8 @@
 //! The mesh: nodes, rod elements, rigid magnets. Section changes and magnet ends fall on nodes.
 
 use super::direction::direction;
+use super::{Plan, Scene, Segment, SegmentMagnet};
 use crate::magnetic::Cuboid;
-use crate::scene::{Plan, Scene, Segment, SegmentMagnet};
 
 /// Nodes and elements along the rest body, head first.
 #[derive(Clone, Debug)]
