@@ -239,7 +239,7 @@ def _stops_cleanly() -> bool:
     """Whether a signal's handler runs now inside a call that stops, and changes nothing, where it raises."""
 
 def cuboid_field(size_m: ArrayLike, magnetisation_t: ArrayLike, points_m: ArrayLike) -> NDArray[np.float64]:
-    """Flux density (P, 3) [T] at points (P, 3) [m] of a cuboid at the origin with remanence (P, 3) [T].
+    """Flux density (…, 3) [T] at points (…, 3) [m] of a cuboid at the origin with remanence (…, 3) [T].
     Raises ValueError for other shapes."""
 
 def cuboid_wrench(
@@ -252,8 +252,9 @@ def cuboid_wrench(
     order: int,
     model: str,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force (P, 3) [N] and torque (P, 3) [N·m] on bodies at positions (P, 3) [m] with orientations
-    (P, 4) w, x, y, z and remanences (P, 3) [T]; order 1 to 10; model "cuboid" or "dipole"."""
+    """Force (…, 3) [N] and torque (…, 3) [N·m] on bodies at positions (…, 3) [m] with orientations
+    (…, 4) w, x, y, z and remanences (…, 3) [T]; order 1 to 10; model "cuboid" or "dipole". Raises ValueError
+    for magnets that overlap, for quaternions of length 0 and for other shapes."""
 
 def record_scenes(
     scenes: Sequence[Scene],

@@ -39,14 +39,15 @@ def field(
 
     Returns:
         Flux density (..., 3) [T] in the frame of the magnet. Within a few sizes of the magnet it
-        agrees with magpylib to a relative 1e-12, also on the extensions of edges and faces.
+        agrees with magpylib to a relative 1e-12, also on the extensions of edges and faces; at any
+        distance it is right to 1e-9, where edges are up to 1 : 10. A point takes 0.2 to 0.6 µs, 1.3 µs where
+        it is more than 30 edges away.
 
     Raises:
         ValueError: A size that is not positive, a value that is not finite, or shapes that do not fit.
     """
     points, magnetisation = _vectors(points_m=(points_m, 3), magnetisation_t=(magnetisation_t, 3))
-    flux = _magworm.cuboid_field(_size("size_m", size_m), _table(magnetisation), _table(points))
-    return flux.reshape(points.shape)
+    return _magworm.cuboid_field(_size("size_m", size_m), magnetisation, points)
 
 
 def wrench(
@@ -67,13 +68,17 @@ def wrench(
         body_size_m: Edges of the body magnet along its own x, y, z [m].
         position_m: Centres of the body magnet (..., 3) [m].
         quaternion_wxyz: Its orientations (..., 4): the rotation from its own frame to the drive's.
-            Normalised here.
+            Of any length but 0.
         drive_magnetisation_t: Remanence vector of the drive (..., 3) [T], in its own frame.
         body_magnetisation_t: Remanence vector of the body magnet (..., 3) [T], in its own frame.
             Every face that it charges counts.
-        order: Gauss–Legendre points along each edge of a charged face, 1 to 10; faces that are
-            nearer to the drive than they are long are cut into panels of so many points each.
-            Order 5 keeps forces and torques of the reference table to 1e-7.
+        order: Gauss–Legendre points along each edge of a charged face, 1 to 10; where the magnets are
+            nearer than the body's longest edge, along each edge of a panel, cut until force and
+            torque change by less than 10^-(order + 1) of their sum. At order 5 forces and torques of
+            the reference table are right to 1e-7; of magnets that touch or nearly do, forces to 2e-6 and
+            torques to 1e-5 of the sum of themselves and a tenth of the force at half the body's diagonal.
+            A pose takes 4 µs; nearer than that edge 0.1 to 5 ms, 50 ms where edges lie upon edges; and
+            32 µs more than 30 edges away.
         model: "cuboid", or "dipole": both magnets as point dipoles, good far away only.
 
     The leading axes of positions, orientations and magnetisations are broadcast against each other.
@@ -83,8 +88,9 @@ def wrench(
         the frame of the drive.
 
     Raises:
-        ValueError: A size that is not positive, an order out of range, a quaternion of length 0, a
-            value that is not finite, an unknown model, or shapes that do not fit.
+        ValueError: Magnets that overlap (they may touch), or dipoles in one place; a size that is not
+            positive, an order out of range, a quaternion of length 0, a value that is not finite, an
+            unknown model, or shapes that do not fit.
     """
     choice("model", model, MODELS)
     if whole(order) not in range(1, MAX_ORDER + 1):
@@ -95,20 +101,16 @@ def wrench(
         drive_magnetisation_t=(drive_magnetisation_t, 3),
         body_magnetisation_t=(body_magnetisation_t, 3),
     )
-    length = np.linalg.norm(quaternion, axis=-1, keepdims=True)
-    if (length == 0.0).any():
-        raise ValueError("quaternion_wxyz has length 0; a rotation is needed")
-    force, torque = _magworm.cuboid_wrench(
+    return _magworm.cuboid_wrench(
         _size("drive_size_m", drive_size_m),
         _size("body_size_m", body_size_m),
-        _table(position),
-        _table(quaternion / length),
-        _table(drive),
-        _table(body),
+        position,
+        quaternion,
+        drive,
+        body,
         order,
         model,
     )
-    return force.reshape(position.shape), torque.reshape(position.shape)
 
 
 def _vectors(**given: tuple[ArrayLike, int]) -> list[NDArray[np.float64]]:
@@ -123,19 +125,17 @@ def _vectors(**given: tuple[ArrayLike, int]) -> list[NDArray[np.float64]]:
             raise ValueError(
                 f"{name} has shape {arrays[name].shape}; its last axis must have length {length}"
             )
-        if not np.isfinite(arrays[name]).all():
-            raise ValueError(f"{name} has a value that is not finite")
+        infinite = np.argwhere(~np.isfinite(arrays[name]).all(axis=-1))
+        if len(infinite):
+            place = tuple(infinite[0])
+            where = f"{name}{[int(k) for k in place]}" if place else name
+            raise ValueError(f"{where} is {arrays[name][place].tolist()}; allowed: finite numbers")
     try:
         shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays.values()))
     except ValueError as error:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise ValueError(f"leading axes do not fit together: {shapes}") from error
     return [np.broadcast_to(array, (*shape, array.shape[-1])) for array in arrays.values()]
-
-
-def _table(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vectors (..., C) as a contiguous table (P, C)."""
-    return np.ascontiguousarray(vectors.reshape(-1, vectors.shape[-1]))
 
 
 def _size(name: str, size_m: Sequence[float]) -> NDArray[np.float64]:

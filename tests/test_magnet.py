@@ -91,12 +91,137 @@ def test_validates_field_against_magpylib(magnetisation_t: tuple[float, float, f
     assert error.max() <= 1e-12
 
 
-def test_field_far_away_is_a_dipole_s() -> None:
-    size_m, distance_m = np.array([0.01, 0.01, 0.01]), 1.0
-    moment_t_m3 = 1.22 * size_m.prod() / (4.0 * np.pi)
-    np.testing.assert_allclose(
-        field(size_m, [0.0, 0.0, distance_m]), [0.0, 0.0, 2.0 * moment_t_m3], rtol=1e-6, atol=1e-16
+FLAT = ((0.02, 0.02, 0.002), (0.02, 0.02, 0.002))
+CUBES = ((0.01, 0.01, 0.01), (0.01, 0.01, 0.01))
+TURNED = (0.9, 0.1, -0.3, 0.2)
+
+
+@pytest.mark.parametrize("far", [3e1, 1e2, 1e4, 1e5, 1e6, 1e20])
+@pytest.mark.parametrize("sizes", [CUBES, ((0.04, 0.03, 0.004), (0.008, 0.01, 0.002))])
+def test_far_magnets_are_dipoles(sizes: Any, far: float) -> None:
+    """The next multipole is smaller by the square of the distance."""
+    along = np.array([0.3, 0.1, 1.0]) / np.linalg.norm([0.3, 0.1, 1.0])
+    place_m = far * max(sizes[0]) * along
+    allowed = max(1.0 / far**2, 1e-14)
+    moment_t_m3 = np.array([0.0, 0.0, 1.22 * np.prod(sizes[0])])
+    dipole_t = (3.0 * along * (along @ moment_t_m3) - moment_t_m3) / (4.0 * np.pi)
+    dipole_t /= np.linalg.norm(place_m) ** 3
+    error = np.linalg.norm(field(sizes[0], place_m) - dipole_t) / np.linalg.norm(dipole_t)
+    assert error <= allowed
+    cuboids, dipoles = (wrench(*sizes, place_m, TURNED, model=model) for model in ("cuboid", "dipole"))
+    for exact, point in zip(cuboids, dipoles, strict=True):
+        assert np.linalg.norm(exact - point) <= 3.0 * allowed * np.linalg.norm(point)
+
+
+@pytest.mark.parametrize(
+    ("drive_m", "body_m", "pull_n"),
+    [
+        (*FLAT, 38.824),
+        (*CUBES, 48.192),
+        ((0.04, 0.03, 0.004), (0.04, 0.03, 0.002), 94.768),
+        ((0.01, 0.01, 0.01), (0.004, 0.004, 0.002), 3.0744),
+        ((0.004, 0.004, 0.002), (0.01, 0.01, 0.01), 3.0744),
+    ],
+)
+def test_validates_the_pull_of_touching_magnets(drive_m: Any, body_m: Any, pull_n: float) -> None:
+    """Closed form of Akoun and Yonnet (1984) at a gap of 1 pm, in any of the six directions."""
+    for axis in range(3):
+        along = np.roll([0.0, 0.0, 1.22], axis + 1)
+        for side in (-1.0, 1.0):
+            sizes = (np.roll(drive_m, axis + 1), np.roll(body_m, axis + 1))
+            place_m = side * 0.5 * (drive_m[2] + body_m[2]) * along / 1.22
+            force_n, torque_n_m = wrench(
+                *sizes, place_m, (1, 0, 0, 0), drive_magnetisation_t=along, body_magnetisation_t=along
+            )
+            np.testing.assert_allclose(force_n, -side * pull_n * along / 1.22, rtol=3e-5, atol=1e-9)
+            np.testing.assert_allclose(torque_n_m, 0.0, atol=1e-9)
+
+
+def charges(body_m: Any, place_m: np.ndarray, turn: np.ndarray, body_t: np.ndarray, drive: Any) -> Any:
+    """Charged faces of the body in magpylib's field of a drive, in 16 panels of 20 points along each edge."""
+    x, weights = np.polynomial.legendre.leggauss(20)
+    panels = (2.0 * np.arange(16) + 1.0) / 16.0 - 1.0
+    x, weights = (panels[:, None] + x / 16.0).ravel(), np.tile(weights / 16.0, 16)
+    force_n, torque_n_m = np.zeros(3), np.zeros(3)
+    for n in range(3):
+        s, t = (n + 1) % 3, (n + 2) % 3
+        for side in (-1.0, 1.0):
+            local = np.zeros((x.size, x.size, 3))
+            local[..., n], local[..., s], local[..., t] = side, x[:, None], x
+            arms = (local * 0.5 * np.asarray(body_m)) @ turn.T
+            area = body_m[s] * body_m[t] / 4.0
+            charge = side * body_t[n] * area * weights[:, None, None] * weights[:, None] / (4e-7 * np.pi)
+            forces = charge * drive.getB(place_m + arms)
+            force_n += forces.sum(axis=(0, 1))
+            torque_n_m += np.cross(arms, forces).sum(axis=(0, 1))
+    return force_n, torque_n_m
+
+
+@pytest.mark.parametrize("gap_m", [1e-4, 1e-3])
+@pytest.mark.parametrize(
+    "tilt_rad", [(0.0, 0.0, 0.0), (0.0, 0.05, 0.0), (0.08, 0.03, 0.5)], ids=["flat", "tilted", "turned"]
+)
+def test_validates_near_magnets_against_magpylib(gap_m: float, tilt_rad: Any) -> None:
+    """Shifted, with any magnetisation; the lowest corner is the gap above the drive."""
+    magpylib = pytest.importorskip("magpylib")
+    rotation = pytest.importorskip("scipy.spatial.transform").Rotation.from_rotvec(tilt_rad)
+    turn, (drive_m, body_m) = rotation.as_matrix(), ((0.02, 0.015, 0.003), (0.012, 0.01, 0.002))
+    drive_t, body_t = np.array([0.2, -0.3, 1.2]), np.array([-0.4, 0.3, 1.0])
+    drive = magpylib.magnet.Cuboid(dimension=drive_m, polarization=drive_t)
+    height = 0.5 * drive_m[2] + gap_m + np.abs(turn[2]) @ body_m / 2.0
+    place_m = np.array([0.0063, -0.0021, height])
+    exact_n, exact_n_m = charges(body_m, place_m, turn, body_t, drive)
+    x, y, z, w = rotation.as_quat()
+    force_n, torque_n_m = wrench(
+        drive_m, body_m, place_m, (w, x, y, z), drive_magnetisation_t=drive_t, body_magnetisation_t=body_t
     )
+    assert np.linalg.norm(force_n - exact_n) <= 2e-5 * np.linalg.norm(exact_n)
+    assert np.linalg.norm(torque_n_m - exact_n_m) <= 2e-5 * np.linalg.norm(exact_n_m)
+
+
+def test_forces_do_not_jump_where_magnets_meet() -> None:
+    """Shifted, flat and tilted: from contact to 1 nm the force changes by less than a millionth of itself."""
+    for tilt in (0.0, 0.03):
+        turn = (np.cos(0.5 * tilt), np.sin(0.5 * tilt), 0.0, 0.0)
+        reach = 0.5 * (0.002 * np.cos(tilt) + 0.02 * np.sin(tilt))
+        places_m = np.array([[0.003, 0.001, 0.001 + reach + gap_m] for gap_m in (0.0, 1e-12, 1e-9)])
+        force_n, torque_n_m = wrench(*FLAT, places_m, turn)
+        np.testing.assert_allclose(force_n - force_n[0], 0.0, atol=1e-5 * np.linalg.norm(force_n[0]))
+        np.testing.assert_allclose(torque_n_m - torque_n_m[0], 0.0, atol=1e-5 * np.linalg.norm(torque_n_m[0]))
+
+
+@pytest.mark.parametrize("length", [5e-324, 1e-200, 1e-3, 7.0, 1e200, 1.7e308])
+def test_quaternions_of_any_length_are_rotations(length: float) -> None:
+    axis = np.array([0.5, -0.25, 0.5, 0.125]) if length > 1e-300 else np.array([1.0, 0.0, -1.0, 0.0])
+    found = wrench(*FLAT, (0.0, 0.0, 0.03), length * axis)
+    exact = wrench(*FLAT, (0.0, 0.0, 0.03), axis)
+    np.testing.assert_allclose(found, exact, rtol=1e-13, atol=1e-18)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"position_m": (0.0, 0.0, 0.0019)},
+            r"position_m is \[.* 0\.0019\] m: .*overlap by 1\.000e-4 m",
+        ),
+        (
+            {"position_m": [(0, 0, 1), (0, 0, 0), (0, 0, 1)]},
+            r"position_m\[1\] is .*overlap.*stand apart",
+        ),
+        ({"position_m": (0, 0, 0), "model": "dipole"}, r"position_m is .*dipoles"),
+        ({"position_m": [(0, 0, 1), (0, 0, 1e-99)], "model": "dipole"}, r"position_m\[1\] is .*dipoles"),
+        (
+            {"position_m": np.full((2, 1, 3), 0.1), "quaternion_wxyz": [(1, 0, 0, 0), (0, 0, 0, 0)]},
+            r"quaternion_wxyz\[0, 1\] is \[0\.0, 0\.0, 0\.0, 0\.0\]; allowed: any rotation",
+        ),
+        ({"quaternion_wxyz": [(1, 0, 0, 0), (np.inf, 0, 0, 0)]}, r"quaternion_wxyz\[1\] is .*finite"),
+    ],
+)
+def test_poses_that_cannot_be_are_named(change: dict[str, Any], message: str) -> None:
+    pose = {"position_m": (0.0, 0.0, 0.03), "quaternion_wxyz": (1.0, 0.0, 0.0, 0.0)}
+    with pytest.raises(ValueError, match=message):
+        wrench(*FLAT, **{**pose, **change})
 
 
 def test_field_broadcasts() -> None:

@@ -80,8 +80,8 @@ pub mod internals {
 
     pub mod magnetic {
         pub use crate::magnetic::{
-            Cuboid, MAX_ORDER, MU_0, Magnet, PlanarDipole, PlanarPair, Wrench, dipole_wrench,
-            field_t, wrench,
+            Cuboid, GaussLegendre, MAX_ORDER, MU_0, Magnet, Overlap, PlanarDipole, PlanarPair,
+            Wrench, dipole_wrench, field_t, wrench,
         };
     }
 

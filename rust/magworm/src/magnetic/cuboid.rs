@@ -10,6 +10,7 @@
 //! R = r₀ + r₁ and the edge's length L, which does not cancel on the edge's extension; the four
 //! edges of a component fold into one logarithm of a ratio of products.
 
+use super::far::{self, FAR};
 use crate::lanes::Real;
 use crate::lanes::math::{atan2, ln_ratio};
 use nalgebra::Vector3;
@@ -19,29 +20,29 @@ use std::f64::consts::PI;
 ///
 /// `size_m`: edge lengths [m]; `remanence_t`: magnetisation times μ0 [T], of any direction;
 /// `position_m`: the point, outside or inside. Relative error below 1e-13 within a few sizes of
-/// the magnet, on its surface and on extensions of edges and faces alike; beyond, it grows as the
-/// cube of the distance over the size. On an edge itself the field is infinite and the result
+/// the magnet, on its surface and on extensions of edges and faces alike, and below 1e-9 everywhere for edges of up to
+/// 1 : 10, as it passes over into a cloud of dipoles 30 sizes away. On an edge itself the field is infinite and the result
 /// large and finite; on a face it is the limit from outside.
 pub fn field_t(
     size_m: Vector3<f64>,
     remanence_t: Vector3<f64>,
     position_m: Vector3<f64>,
 ) -> Vector3<f64> {
-    let half = (0.5 * size_m).into();
-    field(half, remanence_t.into(), position_m.into()).into()
-}
-
-/// B [T] of a cuboid with half sizes `half` [m] and remanence [T] of any direction, at a point
-/// [m] outside or inside: the sum of three cuboids magnetised along one axis each.
-#[inline(always)]
-pub fn field<F: Real>(half: [f64; 3], remanence: [f64; 3], at: [F; 3]) -> [F; 3] {
-    let [a, b, c] = half;
-    let [x, y, z] = at;
-    let [py, pz, px] = unit_field([b, c, a], [y, z, x]);
-    let [qz, qx, qy] = unit_field([c, a, b], [z, x, y]);
-    let [rx, ry, rz] = unit_field([a, b, c], [x, y, z]);
-    let [jx, jy, jz] = remanence;
-    [px * jx + qx * jy + rx * jz, py * jx + qy * jy + ry * jz, pz * jx + qz * jy + rz * jz]
+    if position_m.norm() > FAR * size_m.max() {
+        return far::field_t(size_m, remanence_t, position_m);
+    }
+    let (half, at) = (0.5 * size_m, position_m);
+    let mut field_t = Vector3::zeros();
+    for n in 0..3 {
+        let (s, t) = ((n + 1) % 3, (n + 2) % 3);
+        if remanence_t[n] != 0.0 {
+            let b = unit_field([half[s], half[t], half[n]], [at[s], at[t], at[n]]);
+            field_t[s] += b[0] * remanence_t[n];
+            field_t[t] += b[1] * remanence_t[n];
+            field_t[n] += b[2] * remanence_t[n];
+        }
+    }
+    field_t
 }
 
 /// B/J of a cuboid magnetised along z, at any point: the accurate form.

@@ -2,9 +2,10 @@
 //!
 //! | file | model |
 //! |---|---|
-//! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: [`field`] |
+//! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: `unit_field` |
 //! | `planar` | wrench between two cuboids in the simulator's plane, in lanes: [`PlanarPair`] |
-//! | `wrench` | wrench in space: [`wrench()`]; in lanes: [`SpatialPair`] |
+//! | `spatial` | wrench between two cuboids in space, in lanes: [`SpatialPair`] |
+//! | `wrench` | the same at any distance: [`wrench()`]; with `near`, `far` and `separation` |
 //! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`], [`SpatialDipole`] |
 //! | `uniform` | torque of a uniform field: [`UniformField`] |
 //! | `quadrature` | Gauss–Legendre rules: [`GaussLegendre`] |
@@ -21,8 +22,12 @@
 
 mod cuboid;
 mod dipole;
+mod far;
+mod near;
 mod planar;
 mod quadrature;
+mod separation;
+mod spatial;
 #[cfg(test)]
 mod tests;
 mod uniform;
@@ -32,8 +37,11 @@ pub use cuboid::field_t;
 pub use dipole::{PlanarDipole, SpatialDipole, dipole_wrench};
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
+pub use spatial::SpatialPair;
 pub use uniform::UniformField;
-pub use wrench::{Magnet, SpatialPair, Wrench, wrench};
+pub use wrench::{Overlap, wrench};
+
+use nalgebra::Vector3;
 
 /// Vacuum permeability [N/A²] (CODATA 2022).
 pub const MU_0: f64 = 1.256_637_061_27e-6;
@@ -54,4 +62,22 @@ impl Cuboid {
     pub fn volume_m3(&self) -> f64 {
         self.length_m * self.height_m * self.width_m
     }
+}
+
+/// A cuboid magnet in its own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Magnet {
+    /// Edge lengths [m].
+    pub size_m: Vector3<f64>,
+    /// Remanence with its direction [T].
+    pub remanence_t: Vector3<f64>,
+}
+
+/// Force and torque on a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// Force [N].
+    pub force_n: Vector3<f64>,
+    /// Torque about the body's centre [N·m].
+    pub torque_n_m: Vector3<f64>,
 }

@@ -58,6 +58,7 @@ fn validates_symmetries_of_the_wrench() {
         errors[2].push(difference(planar(x, y, angle + PI), [-fx, -fy, -t], far));
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
         let space = wrench(&spatial(DRIVE), &spatial(BODY), Vector3::new(x, y, 0.0), turn, 6);
+        let space = space.expect("magnets apart");
         let (f, m) = (space.force_n, space.torque_n_m);
         errors[3].push(f.z.abs().max(m.x.hypot(m.y) / far) / f.norm());
         let exact = PlanarPair::new(DRIVE, BODY, 6);

@@ -223,7 +223,8 @@ fn free_error(k: usize, offset: Vector3<f64>, orientation: UnitQuaternion<f64>) 
     let setup = Setup { stage: stage(k), ..Setup::usual("'cuboid'", 4) };
     let [drive, body] = setup.magnets();
     let turn = yawed(setup.stage[3]);
-    let exact = turned(turn, &wrench(&drive, &body, offset, orientation, 4));
+    let exact = wrench(&drive, &body, offset, orientation, 4).expect("magnets apart");
+    let exact = turned(turn, &exact);
     let [x, y, z, _] = setup.stage;
     let axes = (turn * orientation).to_rotation_matrix().into_inner();
     let found = setup.acts(Vector3::new(x, y, z) + turn * offset, axes);
