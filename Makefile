@@ -25,7 +25,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs study-peak identify test bench count count-write wheel lint format docs clean install \
-	lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
+	lint-layers lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	count-program need-cargo need-python need-rust-checks need-valgrind force
 
 ##@ Main
@@ -77,7 +77,7 @@ identify: install-test  ## identify the presets again, half an hour: docs/identi
 ##@ Parts
 
 install: install-test  ## .venv with the extension and all extras
-lint: lint-rust lint-python  ## formatting, clippy, ruff, mypy, stubs
+lint: lint-layers lint-rust lint-python  ## layers, formatting, clippy, ruff, mypy, stubs
 bench: install-test  ## time of a wrench, a step, and the throughput of environments
 	cargo bench --package magworm
 	mkdir -p runs/bench
@@ -114,6 +114,9 @@ help:  ## this list
 	@echo '  TORCH_INDEX_URL=https://download.pytorch.org/whl/cpu installs a PyTorch without CUDA.'
 
 ##@ Checks, one by one
+
+lint-layers: need-python  ## modules of the simulator against the layers of ARCHITECTURE.md
+	$(PYTHON) .ci/layers.py
 
 lint-rust: need-rust-checks $(VENV)/.made  ## cargo fmt, clippy
 	cargo fmt --all --check
