@@ -1,11 +1,13 @@
 //! Equal bits on every instruction set of this processor, from SSE2 to AVX-512, and in plain `f64` or `f32`.
 
+#[path = "pins/pin/mod.rs"]
+mod pin;
 mod scenes;
 
-use magworm::Model;
 use magworm::internals::lanes::{InstructionSet, Number, Row, WIDE, WIDE_SINGLE};
 use magworm::internals::{Block, Draws, Steps, command, reset, scene_start};
 use magworm::scene::Precision;
+use magworm::{LaneChoice, Model};
 
 const CONTROL_STEPS: u64 = 60;
 
@@ -84,6 +86,19 @@ fn every_instruction_set_gives_equal_bits() {
         match model.scene.solver.precision {
             Precision::Double => agree::<[f64; WIDE]>(name, &model),
             Precision::Single => agree::<[f32; WIDE_SINGLE]>(name, &model),
+        }
+    }
+}
+
+/// Pins in the plane and in space, with and without ground, in both precisions; `tests/pins` runs all on the widest set.
+#[test]
+fn narrower_instruction_sets_keep_pinned_trajectories() {
+    for set in &InstructionSet::available()[1..] {
+        for name in ["three_magnets", "cantilever_in_space", "turn", "single_precision_in_space"] {
+            let mut robots = pin::Robots::new(&pin::model(name), pin::ALL, LaneChoice::Wide);
+            robots.batch.use_instruction_set(*set);
+            println!("{name} on {}", set.name());
+            pin::check(name, robots.run(pin::CONTROL_STEPS));
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::actuate::command;
 use crate::interruption::{Interrupted, Interruption};
+use crate::lanes::Row;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{InstructionSet, Row};
 use crate::model::Model;
 use crate::observe;
 use crate::state::{Block, Status};
@@ -22,7 +22,6 @@ pub(crate) fn advance_block<R: Row>(
 where
     Block<R>: Steps,
 {
-    let set = InstructionSet::widest();
     let piece = (PIECE / model.coordinates.count.max(1)).max(1) as u32;
     let mut left = steps;
     while left > 0 {
@@ -30,7 +29,7 @@ where
             return Err(Interrupted);
         }
         let now = left.min(piece);
-        block.advance_on(set, model, now);
+        block.advance_on(block.set, model, now);
         left -= now;
     }
     Ok(())

@@ -16,7 +16,7 @@ pub use snapshot::SnapshotError;
 pub use view::View;
 
 use crate::interruption::{Interrupted, Interruption};
-use crate::lanes::{WIDE, WIDE_SINGLE};
+use crate::lanes::{InstructionSet, WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::StartPose;
@@ -157,6 +157,14 @@ impl Batch {
     /// Number of threads.
     pub fn threads(&self) -> usize {
         self.pool.threads()
+    }
+
+    /// Steps on a narrower instruction set from now on. Tests show by it that bits do not depend on the set.
+    #[doc(hidden)]
+    pub fn use_instruction_set(&mut self, set: InstructionSet) {
+        with_blocks!(&mut self.blocks, blocks => {
+            blocks.iter_mut().for_each(|block| block.set = set);
+        });
     }
 
     /// Factors of the scene's parameters for the next reset, shape [environments × parameters].

@@ -5,7 +5,7 @@ use super::rows::Rows;
 use crate::actuator::{ActuatorRows, Sizes};
 use crate::contact::Workspace;
 use crate::equations::held_rows;
-use crate::lanes::Row;
+use crate::lanes::{InstructionSet, Row};
 use crate::model::Model;
 
 /// Why an environment stands still.
@@ -150,6 +150,8 @@ pub struct Block<R: Row> {
     pub counters: Counters,
     /// The state before a call that may be stopped.
     pub(super) kept: Kept<R>,
+    /// The instruction set that a batch steps the block on; bits do not depend on it.
+    pub set: InstructionSet,
 }
 
 impl<R: Row> Block<R> {
@@ -195,6 +197,7 @@ impl<R: Row> Block<R> {
             contact: Workspace::new(model),
             counters: Counters::default(),
             kept: Kept::default(),
+            set: InstructionSet::widest(),
         };
         (0..R::LANES).for_each(|lane| crate::reset::rest(model, &mut this, lane));
         this

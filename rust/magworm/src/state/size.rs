@@ -46,6 +46,7 @@ impl<R: Row> Block<R> {
             robot_before,
             contact,
             counters: _,
+            set: _,
             kept: _,
         } = self;
         let rows = [

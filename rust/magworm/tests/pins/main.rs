@@ -5,22 +5,14 @@
 //! [`CONTROL_STEPS`] control steps. Where bits change on purpose, `MAGWORM_WRITE_PINS=1 cargo test --test pins` writes the
 //! hashes anew, and the changelog says why.
 
-mod hash;
-mod robots;
-mod table;
+mod pin;
 
-use magworm::LaneChoice::{Scalar, Wide};
-use magworm::scene::Scene;
-use magworm::{LaneChoice, Model, Status};
-use robots::{BURIED, LIMP, OWN, Robots};
-use std::path::Path;
-use std::sync::Arc;
+use magworm::LaneChoice::{self, Scalar, Wide};
+use magworm::Status;
+use pin::{ALL, CONTROL_STEPS, Robots, check, folder, model};
 
-const CONTROL_STEPS: u64 = 500;
 /// Robots that fare well unless their scene breaks them.
-const WELL: &[u64] = &[OWN, 1, 2, 3];
-/// The same, and two that break.
-const ALL: &[u64] = &[OWN, 1, 2, 3, LIMP, BURIED];
+const WELL: &[u64] = ALL.split_at(4).0;
 
 /// A test for each pin, named like its scene.
 macro_rules! pins {
@@ -110,7 +102,7 @@ fn keeps_its_bits(pin: &str) {
     let hash = robots.run(CONTROL_STEPS);
     let broken = (0..ALL.len()).filter(|&place| robots.batch.status(place) != Status::Running);
     assert!((1..4).contains(&broken.count()), "{pin}: some robots break, some run");
-    table::check(pin, hash);
+    check(pin, hash);
 }
 
 fn keeps_its_bits_in_lanes_and_alone(pin: &str) {
@@ -118,17 +110,7 @@ fn keeps_its_bits_in_lanes_and_alone(pin: &str) {
     let run = |lanes: LaneChoice| Robots::new(&model, WELL, lanes).run(CONTROL_STEPS);
     let hash = run(Wide);
     assert_eq!(hash, run(Scalar), "{pin}: in lanes and one by one");
-    table::check(pin, hash);
-}
-
-fn folder() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/pins"))
-}
-
-fn model(pin: &str) -> Arc<Model> {
-    let text = std::fs::read_to_string(folder().join(format!("scenes/{pin}.toml")));
-    let scene = Scene::from_toml(&text.expect("the scene of a pin")).expect("a valid scene");
-    Arc::new(Model::compile(&scene).expect("a model"))
+    check(pin, hash);
 }
 
 #[test]

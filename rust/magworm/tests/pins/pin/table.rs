@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 const HEAD: &str =
-    "# Hash of each pin; see main.rs. Written by `MAGWORM_WRITE_PINS=1 cargo test --test pins`.\n";
+    "# Hash of each pin. Written by `MAGWORM_WRITE_PINS=1 cargo test --test pins`.\n";
 
 /// Tests run side by side and share one file.
 static FILE: Mutex<()> = Mutex::new(());

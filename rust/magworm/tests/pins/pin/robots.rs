@@ -8,7 +8,7 @@ use magworm::{Batch, LaneChoice, Model, StartPose, StepOutput, View};
 use std::sync::Arc;
 
 /// The scene's own robot.
-pub const OWN: u64 = 0;
+const OWN: u64 = 0;
 /// Has lost its last magnet.
 const DAMAGED: u64 = 1;
 /// Starts tilted above the ground.
@@ -16,9 +16,12 @@ const TILTED: u64 = 2;
 /// Starts afresh midway.
 const RESET: u64 = 3;
 /// Falls with hardly any stiffness after a while, and is stretched beyond its limit.
-pub const LIMP: u64 = 4;
+const LIMP: u64 = 4;
 /// Starts deep in the ground after a while.
-pub const BURIED: u64 = 5;
+const BURIED: u64 = 5;
+
+/// All of them; the last two break.
+pub const ALL: &[u64] = &[OWN, DAMAGED, TILTED, RESET, LIMP, BURIED];
 
 /// Control step in which robots meet their fate.
 const FATE: u64 = 100;
