@@ -154,6 +154,7 @@ const DEPTH: usize = 16;
 
 impl WideTask for Fused<'_> {
     type Output = ();
+    #[allow(clippy::disallowed_methods, reason = "how fast it would be, not what it gives")]
     fn run<I: Isa<Row = [f64; WIDE]>>(self, isa: I) {
         let Fused(numbers, [c, d]) = self;
         isa.vectorize(

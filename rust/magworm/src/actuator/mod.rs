@@ -151,3 +151,48 @@ impl Actuator {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn actuators(preset: &str) -> Vec<Actuator> {
+        Actuator::of(&Scene::preset(preset).expect("a preset"))
+    }
+
+    #[test]
+    fn an_actuator_declares_as_many_numbers_as_it_exchanges() {
+        let scales = Scales { length_m: 0.02, speed_m_s: 0.2 };
+        for preset in ["paper-3", "turn-3"] {
+            let [stage] = &actuators(preset)[..] else { panic!("{preset} has one stage") };
+            let count = |slices: Vec<Specification>| slices.iter().map(|s| s.size).sum::<usize>();
+            let Sizes { state, action, observation, .. } = stage.sizes();
+            assert_eq!(count(stage.action()), action, "{preset}");
+            assert_eq!(count(stage.observation(&scales)), observation, "{preset}");
+            let rows = vec![[0.5]; state];
+            let mut row = vec![f32::NAN; observation];
+            let from = Outlook::new([0.0; 3]);
+            stage.observe(&rows, 0, &from, &scales, &mut Observation::new(&mut row));
+            assert!(row.iter().all(|number| number.is_finite()), "{preset}: {row:?}");
+        }
+    }
+
+    #[test]
+    fn each_actuator_of_a_list_has_rows_of_its_own() {
+        let pair: Vec<Actuator> = ["paper-3", "turn-3"].into_iter().flat_map(actuators).collect();
+        let sizes = Sizes::of(&pair);
+        let mut rows: [Vec<[f64; 1]>; 3] =
+            [sizes.state, sizes.target, sizes.action].map(|count| vec![[f64::NAN]; count]);
+        let [state, target, action] = &mut rows;
+        let all = ActuatorRows { state, target, action };
+        for (k, (actuator, own)) in each(&pair, all).enumerate() {
+            actuator.place(own, 0, [k as f64, 0.0, 0.0], None);
+        }
+        assert!(rows.iter().flatten().all(|[number]| number.is_finite()), "{rows:?}");
+        let place = |(k, (actuator, state)): (usize, (&Actuator, &[[f64; 1]]))| {
+            (actuator.sizes().state, state[0][0] - k as f64)
+        };
+        let places: Vec<_> = states(&pair, &rows[0]).enumerate().map(place).collect();
+        assert_eq!(places, [(4, 0.0), (8, 0.0)]);
+    }
+}
