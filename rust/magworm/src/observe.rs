@@ -9,7 +9,6 @@ use crate::actuator::{Actuator, Sizes, Stage, states};
 use crate::lanes::math::atan2;
 use crate::lanes::{Number, Row};
 use crate::model::Model;
-use crate::scene::Body;
 use crate::specification::{Observation, Outlook, Scales};
 use crate::state::Block;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -48,11 +47,8 @@ fn actuators(model: &Model) -> Vec<Actuator> {
 /// What observations are scaled by: the magnet pitch, on the average where segments differ, or the rod's length; and the
 /// greatest speed of an actuator.
 pub fn scales(model: &Model) -> Scales {
-    let length_m = match &model.scene.body {
-        Body::Worm(worm) => worm.pitch_m,
-        Body::Rod(rod) => rod.length_m,
-        Body::Segments(_) => model.mesh.pitch_m().unwrap_or(model.mesh.length_m()),
-    };
+    let Model { scene, mesh, .. } = model;
+    let length_m = scene.body.scale_m().or(mesh.pitch_m()).unwrap_or(mesh.length_m());
     let speed_m_s = model.program.actuators.iter().find_map(Actuator::speed_m_s);
     Scales { length_m, speed_m_s: speed_m_s.unwrap_or(SPEED_M_S) }
 }

@@ -14,6 +14,17 @@ pub enum Body {
     Segments(Segments),
 }
 
+impl Body {
+    /// The length that describes it [m]: the pitch of a worm, the length of a rod; none where segments differ.
+    pub fn scale_m(&self) -> Option<f64> {
+        match self {
+            Self::Worm(worm) => Some(worm.pitch_m),
+            Self::Rod(rod) => Some(rod.length_m),
+            Self::Segments(_) => None,
+        }
+    }
+}
+
 /// Feet joined by bridges: length = (magnets − 1) · pitch + foot length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
