@@ -57,6 +57,7 @@ class Case:
     """One case of validation."""
 
     name: str
+    test: str
     title: str
     equation: str
     source: str

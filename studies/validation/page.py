@@ -105,7 +105,7 @@ def _section(section: Section, cases: dict[str, Case], images: str) -> str:
 
 def _case(case: Case, images: str) -> str:
     lines = [f"### {case.title}", "", f"- Law: {case.equation}", f"- Source: {case.source}"]
-    lines.append(f"- Alone: `{COMMAND} validates_{case.name} -- --nocapture`")
+    lines.append(f"- Alone: `{COMMAND} {case.test} -- --nocapture`")
     if case.base:
         base = "the rod above" if "\n" in case.base else f"`{case.base}`"
         lines.append(f"- Scene: {base}" + (", with" if case.edits else ""))

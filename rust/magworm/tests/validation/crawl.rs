@@ -58,9 +58,9 @@ const EXPLICIT: [(&str, &str); 2] =
 
 /// The paper's first case: lift about L/7, symmetric. The preset is identified from it: within 3 %.
 #[test]
-fn validates_lift() {
+fn regresses_lift() {
     let (height, mirror) = lift(&[]);
-    let mut case = Case::new("lift", "Lift over the rising drive")
+    let mut case = Case::fitted("lift", "Lift over the rising drive")
         .equation("All terms of the model together; lift about L/7")
         .source(
             "MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167, first experiment: 7.7 mm; \
@@ -79,9 +79,9 @@ fn validates_lift() {
 
 /// The paper's simulated pass: peak 9.07 mm, stride 3.48 mm. The preset is identified from it: within 3 %.
 #[test]
-fn validates_pass() {
+fn regresses_pass() {
     let (peak, stride) = pass(&[]);
-    let mut case = Case::new("pass", "One pass of the drive")
+    let mut case = Case::fitted("pass", "One pass of the drive")
         .equation("All terms of the model together")
         .source(
             "MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167: peak 9.07 mm, stride 3.48 mm; \
@@ -105,7 +105,7 @@ fn validates_integrators_agree() {
         )
         .source("The two schemes of this simulator; the explicit one is the paper's")
         .scene("paper-3", &EXPLICIT)
-        .note("Lift and pass as above; what is expected is the explicit scheme's.");
+        .note("Lift and pass that the presets are fitted to; what is expected is the explicit scheme's.");
     let names = ["lift", "peak of a pass", "stride of a pass"];
     let both = [lifts, [passes[0].0, passes[1].0], [passes[0].1, passes[1].1]];
     for (name, pair) in names.into_iter().zip(both) {
@@ -116,7 +116,7 @@ fn validates_integrators_agree() {
 
 /// The paper's ablations of the pass: the preset is identified from their order.
 #[test]
-fn validates_ablations() {
+fn regresses_ablations() {
     let alone = |kept: &str| {
         let terms = ["horizontal_force", "vertical_force", "torque"];
         let off: Vec<String> = terms
@@ -129,7 +129,7 @@ fn validates_ablations() {
     };
     let [horizontal, vertical, torque] =
         ["horizontal_force", "vertical_force", "torque"].map(alone);
-    let mut case = Case::new("ablations", "One part of the magnetic load alone")
+    let mut case = Case::fitted("ablations", "One part of the magnetic load alone")
         .equation("The pass with two of horizontal force, vertical force and torque switched off")
         .source(
             "MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167: horizontal force alone \"not \

@@ -13,6 +13,8 @@ const FOLDER: &str = "MAGWORM_VALIDATION_DIR";
 #[derive(Serialize)]
 pub struct Case {
     name: &'static str,
+    /// The test's whole name.
+    test: String,
     title: &'static str,
     equation: String,
     source: String,
@@ -110,10 +112,21 @@ impl Figure {
 }
 
 impl Case {
-    /// `name` is that of the test function less `validates_`: the command for the case alone comes from it.
+    /// A comparison with something from outside; `name` is that of the test function less `validates_`.
     pub fn new(name: &'static str, title: &'static str) -> Self {
+        Self::of("validates", name, title)
+    }
+
+    /// Numbers that the presets were fitted to, which say that the fit still holds and no more; `name` is that of the test
+    /// function less `regresses_`.
+    pub fn fitted(name: &'static str, title: &'static str) -> Self {
+        Self::of("regresses", name, title)
+    }
+
+    fn of(kind: &str, name: &'static str, title: &'static str) -> Self {
         Self {
             name,
+            test: format!("{kind}_{name}"),
             title,
             equation: String::new(),
             source: String::new(),
