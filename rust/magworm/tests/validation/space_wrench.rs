@@ -305,14 +305,14 @@ fn validates_the_wrench_in_a_step_in_space() {
     let parse = |line: &str| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect();
     let rows: Vec<Vec<f64>> = REFERENCE.lines().skip(1).map(parse).collect();
     assert_eq!(rows.len(), 21);
-    for (order, band) in [(8, 1e-8), (2, f64::INFINITY)] {
+    for (order, band) in [(8, 1e-8), (2, 2e-2)] {
         let errors = rows.iter().enumerate().map(|(k, row)| reference_error(row, order, k));
         let errors: Vec<f64> = errors.collect();
         case.spread(format!("reference, order {order}"), "relative", &errors, band);
     }
     let errors: Vec<f64> = spatial_poses().map(|(k, at, turn)| free_error(k, at, turn)).collect();
     case.spread("`wrench()`, order 4 of both", "relative", &errors, 1e-11);
-    for (order, band) in [(8, 1e-9), (2, f64::INFINITY)] {
+    for (order, band) in [(8, 1e-9), (2, 1e-4)] {
         let errors: Vec<f64> =
             poses([0.12, 0.022, 0.04]).map(|pose| planar_error(pose, order)).collect();
         case.spread(format!("planar step, order {order} of both"), "relative", &errors, band);
