@@ -3,6 +3,8 @@
 import operator
 import reprlib
 from collections.abc import Iterable, Sequence
+from os import PathLike
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -32,6 +34,13 @@ def numbers(value: ArrayLike) -> NDArray[np.float64] | None:
         return np.asarray(value, np.float64)
     except (TypeError, ValueError, OverflowError, RecursionError):
         return None
+
+
+def path_of(name: str, value: str | PathLike[str]) -> Path:
+    """A path, from text or a path."""
+    if not isinstance(value, (str, PathLike)):
+        raise ValueError(f"{name} is {shown(value)}; allowed: a path")
+    return Path(value)
 
 
 def action_rows(actions: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:

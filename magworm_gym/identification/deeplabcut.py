@@ -2,11 +2,13 @@
 
 import csv
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.arguments import path_of
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.table import read_text
 
@@ -41,7 +43,7 @@ class Tracks:
         return self.parts[name]
 
 
-def read_deeplabcut(path: Path) -> Tracks:
+def read_deeplabcut(path: str | PathLike[str]) -> Tracks:
     """Reads a CSV file of DeepLabCut for a single animal.
 
     Three header rows (scorer, bodyparts, coords), then a row for each frame: its number, and x, y
@@ -50,6 +52,7 @@ def read_deeplabcut(path: Path) -> Tracks:
     Raises:
         ProblemError: A file of another form; says line, column and value.
     """
+    path = path_of("path", path)
     rows = list(csv.reader(read_text(path, "track file").splitlines()))
     _check_header(path, rows)
     parts, coordinates = rows[1][1:], rows[2][1:]

@@ -1,12 +1,14 @@
 """The drive's motion as it was measured, as waypoints of a scene."""
 
 import csv
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.arguments import path_of
 from magworm_gym.identification.camera import START_SPAN_S, Camera
 from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.mistake import ProblemError
@@ -31,7 +33,7 @@ def waypoints(time_s: Floats, points_m: Floats) -> dict[str, Any]:
     return {"kind": "waypoints", "time_s": time_s.tolist(), "x_m": x_m.tolist(), "y_m": y_m.tolist()}
 
 
-def read_drive(path: Path, start_s: float) -> dict[str, Any]:
+def read_drive(path: str | PathLike[str], start_s: float) -> dict[str, Any]:
     """Reads the drive's motion from a CSV file with the columns time_s, x_m, y_m.
 
     Args:
@@ -41,6 +43,7 @@ def read_drive(path: Path, start_s: float) -> dict[str, Any]:
     Raises:
         ProblemError: A file of another form; says line, column and value.
     """
+    path = path_of("path", path)
     rows = list(csv.reader(read_text(path, "drive file").splitlines()))
     header = tuple(cell.strip() for cell in rows[0]) if rows else ()
     if header != COLUMNS:

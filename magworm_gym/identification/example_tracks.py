@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from os import PathLike
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
+from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.camera import Camera
 from magworm_gym.recording import record_scenes
@@ -37,7 +38,7 @@ class Blur:
 
 
 def write_example_tracks(
-    path: Path,
+    path: str | PathLike[str],
     scene: Scene,
     duration_s: float,
     camera: Camera,
@@ -57,6 +58,7 @@ def write_example_tracks(
         blur: What tracking does to it.
         seed: Seed of the noise.
     """
+    path = path_of("path", path)
     blur = blur or Blur()
     run = record_scenes([scene], duration_s, RECORD_S, nodes=False)[0]
     places = np.concatenate([run.magnet_poses[..., :2], run.drive_positions[:, :1]], axis=1)

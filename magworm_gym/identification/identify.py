@@ -1,12 +1,14 @@
 """From a problem to fitted parameters and what is known of them."""
 
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
+from magworm_gym.arguments import path_of
 from magworm_gym.identification.combinations import FreeCombination, free_combinations
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.exploration import CHI_SQUARE_95, explore, threshold
@@ -66,7 +68,7 @@ class Identification:
 
 def identify(
     problem: Problem,
-    out: Path | None = None,
+    out: str | PathLike[str] | None = None,
     *,
     resume: bool = False,
     threads: int | None = None,
@@ -88,6 +90,7 @@ def identify(
         ProblemError: Nothing within the bounds can be simulated, or the folder does not fit.
         KeyboardInterrupt: Stopped; it says how to go on.
     """
+    out = None if out is None else path_of("out", out)
     try:
         return _fitted(problem, out, resume, threads, progress)
     except KeyboardInterrupt as stopped:

@@ -5,11 +5,13 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from magworm_gym import __version__
 from magworm_gym._magworm import Scene, SceneError
+from magworm_gym.arguments import path_of
 from magworm_gym.identification.experiment import Experiment, edited_scene
 from magworm_gym.identification.measurements import read_comparison, read_film, read_targets
 from magworm_gym.identification.mistake import ProblemError
@@ -60,7 +62,7 @@ class Problem:
         return sum(experiment.duration_s for experiment in self.experiments)
 
 
-def read_problem(path: Path, search: Mapping[str, Any] | None = None) -> Problem:
+def read_problem(path: str | PathLike[str], search: Mapping[str, Any] | None = None) -> Problem:
     """Reads a problem file.
 
     Args:
@@ -70,6 +72,7 @@ def read_problem(path: Path, search: Mapping[str, Any] | None = None) -> Problem
     Raises:
         ProblemError: A mistake in it or in a file that it names.
     """
+    path = path_of("path", path)
     entries = parse_toml(read_text(path, "problem file"), str(path))
     if search:
         settings = entries.get("search", {})

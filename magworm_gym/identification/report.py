@@ -1,12 +1,13 @@
 """What was identified, as Markdown, as JSON and as a scene."""
 
 import json
-from pathlib import Path
+from os import PathLike
 from typing import Any
 
 import numpy as np
 
 from magworm_gym import __version__
+from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.combinations import in_words
 from magworm_gym.identification.findings import Finding
@@ -21,8 +22,9 @@ MISFIT = 1.5
 """Misfit beyond which the report says that the model does not fit [1]."""
 
 
-def write_results(found: Identification, out: Path) -> None:
+def write_results(found: Identification, out: str | PathLike[str]) -> None:
     """Writes ``scene.toml``, ``report.md`` and ``report.json`` into a folder."""
+    out = path_of("out", out)
     write_text(out / "scene.toml", fitted_scene_toml(found))
     write_text(out / "report.json", json.dumps(as_json(found), indent=1, allow_nan=False) + "\n")
     write_text(out / "report.md", as_markdown(found))

@@ -2,11 +2,13 @@
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
+from os import PathLike
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
+
+from magworm_gym.arguments import path_of
 
 Frame = NDArray[np.uint8]
 
@@ -31,7 +33,7 @@ def stacked(panels: Sequence[Frame]) -> Frame:
     return np.ascontiguousarray(whole[:height, :width])
 
 
-def write_mp4(path: Path, frames: Iterable[Frame], fps: float) -> None:
+def write_mp4(path: str | PathLike[str], frames: Iterable[Frame], fps: float) -> None:
     """Writes an H.264 video that browsers play.
 
     A file appears under its name only when it is complete.
@@ -45,6 +47,7 @@ def write_mp4(path: Path, frames: Iterable[Frame], fps: float) -> None:
         ImportError: imageio-ffmpeg is missing; the sentence names the extra to install.
         ValueError: There is no frame.
     """
+    path = path_of("path", path)
     try:
         import imageio_ffmpeg
     except ImportError as error:
@@ -63,7 +66,7 @@ def write_mp4(path: Path, frames: Iterable[Frame], fps: float) -> None:
     os.replace(part, path)
 
 
-def write_gif(path: Path, frames: Iterable[Frame], fps: float, scale: float = 1.0) -> None:
+def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, scale: float = 1.0) -> None:
     """Writes an endlessly repeating gif with one palette for all frames.
 
     Args:
@@ -75,6 +78,7 @@ def write_gif(path: Path, frames: Iterable[Frame], fps: float, scale: float = 1.
     Raises:
         ValueError: There is no frame.
     """
+    path = path_of("path", path)
     first, rest = _first(frames)
     size = (round(first.shape[1] * scale), round(first.shape[0] * scale))
     palette = Image.fromarray(first).quantize(GIF_COLOURS)
