@@ -70,6 +70,8 @@ def seeds_of(seed: int | Sequence[int | None] | None, num_envs: int) -> list[int
     single = whole(seed)
     if single is None and (isinstance(seed, str) or not isinstance(seed, Iterable)):
         raise ValueError(f"seed is {shown(seed)}; allowed: None, a whole number, or one for each environment")
+    if single is not None and 0 <= single < SEED_LIMIT - num_envs:
+        return list(range(single, single + num_envs))
     given = list(seed) if single is None else [single + i for i in range(num_envs)]  # type: ignore[arg-type]
     if len(given) != num_envs:
         raise ValueError(f"seed has {len(given)} entries; it must have one per environment ({num_envs})")

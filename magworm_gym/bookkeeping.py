@@ -5,10 +5,15 @@ import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from copy import deepcopy
+from importlib import import_module
 from types import FrameType, TracebackType
 from typing import Any
 
 from magworm_gym._magworm import _stops_cleanly
+
+# What `signal` is made of: its conversions to and from enumerations would be a twentieth of a short step.
+_signal: Any = import_module("_signal")
+SIGINT = int(signal.SIGINT)
 
 
 class Bookkeeping:
@@ -23,12 +28,12 @@ class Bookkeeping:
     def __enter__(self) -> "Bookkeeping":
         self._begun = False
         self._waiting: tuple[int, FrameType | None] | None = None
-        handler = signal.getsignal(signal.SIGINT)
+        handler = _signal.getsignal(SIGINT)
         # Signals reach the main thread alone, and only it may change who handles them.
-        here = threading.current_thread() is threading.main_thread()
+        here = threading.get_ident() == threading.main_thread().ident
         self._handler: Any = handler if here and callable(handler) else None
         if self._handler is not None:
-            signal.signal(signal.SIGINT, self._hold)
+            _signal.signal(SIGINT, self._hold)
         return self
 
     def begin(self) -> None:
@@ -40,7 +45,7 @@ class Bookkeeping:
     ) -> None:
         if self._handler is None:
             return
-        signal.signal(signal.SIGINT, self._handler)
+        _signal.signal(SIGINT, self._handler)
         if self._waiting is not None:
             self._handler(*self._waiting)
 
