@@ -1,19 +1,13 @@
-//! Rules of the body and its magnets: feet, bridges, and what rods share with them.
+//! Rules of the body and its magnets: feet and bridges.
 
 use super::super::error::Problem;
-use super::super::fields::SHORTEST_ELEMENT_M;
 use super::super::schema::quantity;
 use super::super::segments::NOTHING;
 use super::super::{Body, Magnet, Scene, Worm};
+use super::elements::{MOST_NODES, elements_long_enough, rubber_at_the_end};
 use super::rod::check_rod;
 use super::segments::check_segments;
-use super::{no_longer, require, rounded};
-
-/// Largest part of its section that a magnet may fill where the body ends with it: the last node
-/// needs rubber for its mass.
-pub(super) const FULLEST_END: f64 = 1.0 - 1e-6;
-/// Most nodes of a body.
-pub(super) const MOST_NODES: usize = 1000;
+use super::{no_longer, require};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     match (&scene.body, &scene.magnet) {
@@ -76,29 +70,5 @@ fn worm_elements(worm: &Worm, magnet: &Magnet) -> Result<(), Problem> {
     let nodes = worm.magnets * (2 * ends + 1) + (worm.magnets - 1) * bridges + 1;
     require(nodes <= MOST_NODES, "body.elements_per_bridge", bridges.to_string(), || {
         format!("at most {MOST_NODES} nodes in the body, here {nodes}")
-    })
-}
-
-pub(super) fn rubber_at_the_end(
-    magnet: &Magnet,
-    thickness_m: f64,
-    width_m: f64,
-) -> Result<(), Problem> {
-    let filled = magnet.height_m * magnet.width_m <= FULLEST_END * thickness_m * width_m;
-    require(filled, "magnet.height_m", quantity(magnet.height_m, "m"), || {
-        "less than the body's thickness where the body ends with a magnet as wide".into()
-    })
-}
-
-pub(super) fn elements_long_enough(
-    field: &str,
-    elements: usize,
-    length_m: f64,
-) -> Result<(), Problem> {
-    let most = (length_m / SHORTEST_ELEMENT_M * (1.0 + 1e-9)).floor();
-    require(elements as f64 <= most, field, elements.to_string(), || {
-        let (length, shortest) =
-            (quantity(rounded(length_m), "m"), quantity(SHORTEST_ELEMENT_M, "m"));
-        format!("at most {most}, each {shortest} or longer, in a length of {length}")
     })
 }

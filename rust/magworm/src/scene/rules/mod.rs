@@ -2,6 +2,7 @@
 
 mod body;
 mod drive;
+mod elements;
 mod rod;
 mod segments;
 mod space;

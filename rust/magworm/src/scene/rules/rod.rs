@@ -5,7 +5,7 @@ use super::super::fields::SHORTEST_ELEMENT_M;
 use super::super::schema::{number, quantity};
 use super::super::segments::NOTHING;
 use super::super::{Clamp, Magnet, Rod};
-use super::body::{MOST_NODES, elements_long_enough, rubber_at_the_end};
+use super::elements::{MOST_NODES, elements_long_enough, rubber_at_the_end};
 use super::{no_longer, require, rounded};
 
 /// Shortest gap beside a magnet, less rounding [m].

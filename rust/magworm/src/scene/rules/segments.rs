@@ -4,7 +4,7 @@ use super::super::error::Problem;
 use super::super::fields::{MOST_MAGNETS, SHORTEST_ELEMENT_M};
 use super::super::schema::{number, quantity};
 use super::super::{Clamp, Segment, SegmentMagnet, Segments};
-use super::body::{FULLEST_END, MOST_NODES, elements_long_enough};
+use super::elements::{FULLEST_END, MOST_NODES, elements_long_enough};
 use super::{no_longer, require, rounded};
 
 pub(super) fn check_segments(body: &Segments) -> Result<(), Problem> {
