@@ -18,6 +18,7 @@ from magworm_gym.identification import (
     write_results,
 )
 from magworm_gym.identification.evaluation import BROKEN, REFUSED, Evaluator
+from magworm_gym.identification.problem import scene_numbers
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.targets import Comparison, Target
 
@@ -87,6 +88,26 @@ def short_problem(**search):
         },
         Path(),
     )
+
+
+def test_a_field_of_one_segment_is_fitted(tmp_path):
+    (tmp_path / "scene.toml").write_text(Scene.preset("paper-3").in_segments().to_toml())
+    path = "body.segment[2].thickness_m"
+    aim = {"quantity": "peak_m", "magnet": 1, "value": 8e-3, "tolerance": 1e-4}
+    problem = make_problem(
+        {
+            "scene": "scene.toml",
+            "parameters": {path: {"low": 0.005, "high": 0.0069}},
+            "experiment": [{"duration_s": 0.2, "values": PASS, "targets": [aim]}],
+            "search": {"restarts": 1, "population": 4, "generations": 3, "scatter": 8, "rounds": 1},
+        },
+        tmp_path,
+    )
+    assert scene_numbers(problem.base)[path] == 0.007
+    found = identify(problem)
+    fitted = scene_numbers(found.scene)[path]
+    assert 0.005 <= fitted <= 0.0069
+    assert found.scene.geometry["element_thickness_m"].count(fitted) == 3
 
 
 def path_recording(x_m, y_m):

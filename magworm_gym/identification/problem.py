@@ -211,6 +211,8 @@ def scene_numbers(scene: Scene) -> dict[str, float]:
         place, value = waiting.pop()
         if isinstance(value, dict):
             waiting += [(f"{place}.{key}" if place else key, each) for key, each in value.items()]
+        elif isinstance(value, list):
+            waiting += [(f"{place}[{index}]", each) for index, each in enumerate(value)]
         elif isinstance(value, int | float) and not isinstance(value, bool):
             numbers[place] = float(value)
     return numbers
