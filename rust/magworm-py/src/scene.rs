@@ -158,10 +158,14 @@ impl Scene {
         dict.set_item("element_width_m", widths)?;
         let sizes: Vec<[f64; 3]> = mesh.magnets.iter().map(|m| m.size_m).collect();
         dict.set_item("magnet_size_m", sizes)?;
-        let offsets: Vec<[f64; 3]> = mesh.magnets.iter().map(|m| m.offset_m).collect();
+        let offsets: Vec<[f64; 3]> =
+            mesh.magnets.iter().map(|m| m.offset_m.unwrap_or_default()).collect();
         dict.set_item("magnet_offset_m", offsets)?;
-        let directions: Vec<[f64; 3]> =
-            mesh.magnets.iter().map(|m| m.direction.map(|part| part * m.polarity)).collect();
+        let directions: Vec<[f64; 3]> = mesh
+            .magnets
+            .iter()
+            .map(|m| m.direction.vector().map(|part| part * m.polarity))
+            .collect();
         dict.set_item("magnet_direction", directions)?;
         let polarity: Vec<f64> = mesh.magnets.iter().map(|m| m.polarity).collect();
         dict.set_item("polarity", polarity)?;

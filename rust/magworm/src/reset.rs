@@ -8,7 +8,7 @@ use laid::{Bent, Laid, Straight};
 use crate::actuate;
 use crate::lanes::math::radians;
 use crate::lanes::{Number, Row};
-use crate::model::{Anchor, Model};
+use crate::model::{Anchor, MassPart, Model};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 
@@ -135,13 +135,19 @@ fn put<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, laid: &impl Lai
 pub fn apply_parameters<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
     let factor = |block: &Block<R>, p: Parameter| block.factors[p as usize][lane].f64();
     let mass_factor = factor(block, Parameter::Mass);
-    block.mass.iter_mut().for_each(|row| row[lane] = R::Number::default());
-    for part in &model.inertia {
-        let is_in = part.body.is_some_and(|body| block.present[body][lane] == R::Number::of(1.0));
-        let cavity = if is_in { part.magnet } else { part.fill };
-        let mass = &mut block.mass[part.dof][lane];
-        *mass = R::Number::of(mass.f64() + mass_factor * (part.rubber + cavity));
+    for rows in [&mut block.mass, &mut block.off_centre] {
+        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
     }
+    let present = &block.present;
+    let add = |rows: &mut [R], part: &MassPart| {
+        let is_in = part.body.is_some_and(|body| present[body][lane] == R::Number::of(1.0));
+        let cavity = if is_in { part.magnet } else { part.fill };
+        let mass = &mut rows[part.row][lane];
+        *mass = R::Number::of(mass.f64() + mass_factor * (part.rubber + cavity));
+    };
+    model.inertia.iter().for_each(|part| add(&mut block.mass, part));
+    let moments = model.off_centre.iter().flat_map(|body| &body.parts);
+    moments.for_each(|part| add(&mut block.off_centre, part));
     let remanence_factor = factor(block, Parameter::Remanence);
     for (body, magnet) in model.mesh.magnets.iter().enumerate() {
         let remanence_t = remanence_factor * magnet.remanence_t * magnet.polarity;

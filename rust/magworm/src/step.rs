@@ -72,7 +72,7 @@ fn run<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>,
         ),
         Phase::Gravity => isa.vectorize(
             #[inline(always)]
-            || equations::gravity(isa, model, block),
+            || equations::gravity::<D, I>(isa, model, block),
         ),
         Phase::Magnets => isa.vectorize(
             #[inline(always)]
@@ -136,6 +136,7 @@ fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
     if D == 3 {
         elastic::turn(isa, model, block, go);
     }
+    equations::carry::<D, I>(isa, model, block, go);
 }
 
 #[inline(always)]

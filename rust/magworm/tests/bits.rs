@@ -122,6 +122,13 @@ fn scalar_and_wide_lanes_give_equal_bits_for_three_magnets() {
 }
 
 #[test]
+fn scalar_and_wide_lanes_give_equal_bits_for_unequal_magnets() {
+    lanes_agree("mixed magnets", 200, 3);
+    lanes_agree("mixed magnets in space", 150, 3);
+    lanes_agree("mixed dipoles in single precision in space", 150, 3);
+}
+
+#[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_four_magnets() {
     lanes_agree("four magnets", 300, 3);
     lanes_agree("four magnets in space without yaw", 150, 3);

@@ -176,6 +176,21 @@ fn segments_that_cannot_be_built_are_refused_in_a_sentence() {
             "body.segment[0].magnet.along_m is 0.005 m; allowed: -0.004 to 0.004 m, within its segment",
         ),
         (
+            "body.segment[2].magnet.up_m",
+            "-0.002",
+            "body.segment[2].magnet.up_m is -0.002 m; allowed: -0.0015 to 0.0015 m, within its segment",
+        ),
+        (
+            "body.segment[0].magnet.aside_deg",
+            "5",
+            "body.segment[0].magnet.aside_deg is 5°; allowed: 0 where dimensions = 2",
+        ),
+        (
+            "body.segment[0].magnet.aside_m",
+            "0.001",
+            "body.segment[0].magnet.aside_m is 0.001 m; allowed: 0 where dimensions = 2",
+        ),
+        (
             "body.segment[1].elements",
             "700",
             "body.segment[1].elements is 700; allowed: at most 600, each 1e-5 m or longer, in a length of 0.006 m",
@@ -200,6 +215,21 @@ fn segments_that_cannot_be_built_are_refused_in_a_sentence() {
     assert_eq!(
         full.expect_err("no rubber at the tail"),
         "body.segment[4].magnet.height_m is 0.008 m; allowed: less than the segment's thickness where the body ends with a magnet as wide"
+    );
+}
+
+/// Its stable step is unknown where motions along and across the body meet.
+#[test]
+fn the_explicit_scheme_refuses_magnets_beside_the_middle() {
+    let explicit = [
+        ("body.segment[2].magnet.up_m".into(), Some(0.001.into())),
+        ("solver.integrator".into(), Some("explicit".into())),
+        ("solver.step_s".into(), Some(1e-5.into())),
+    ];
+    let scene = Scene::from_toml(MIXED).expect("a scene").with_values(&explicit);
+    assert_eq!(
+        scene.expect_err("explicit").to_string(),
+        "solver.integrator is \"explicit\"; allowed: newmark and euler where body.segment[2].magnet has up_m or aside_m"
     );
 }
 

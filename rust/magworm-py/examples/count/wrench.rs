@@ -39,7 +39,9 @@ impl WideTask for Sweep<'_> {
                             let axes = [[cos, sin, zero], [-sin, cos, zero], [zero, zero, one]];
                             wrench = pair.wrench([along, one * ABOVE_M, one * BESIDE_M], axes);
                         }
-                        PairModel::Dipole(_) | PairModel::SpatialDipole(_) => {}
+                        PairModel::ObliqueCuboid(_)
+                        | PairModel::Dipole(_)
+                        | PairModel::SpatialDipole(_) => {}
                     }
                     for k in 0..6 {
                         isa.store(isa.load(&total[k]) + wrench[k], &mut total[k]);

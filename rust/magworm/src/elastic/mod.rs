@@ -15,7 +15,7 @@ mod frames;
 mod kinematics;
 mod stretch;
 mod twist;
-mod vector;
+pub mod vector;
 
 pub use bend::assemble as bend;
 pub use frames::{axes, turn};

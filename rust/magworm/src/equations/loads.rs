@@ -1,8 +1,9 @@
 //! Impulses of gravity and magnets.
 
-use super::hold;
+use super::{hold, off_centre};
 use crate::actuator::{Actuator, Layout, states};
 use crate::elastic;
+use crate::elastic::vector::cross;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Isa, Mask, Real};
 use crate::model::{Magnetics, Model, PairModel, body_size};
@@ -11,9 +12,9 @@ use crate::state::Block;
 /// Components of a wrench in space.
 const WRENCH: usize = 6;
 
-/// Adds Δt m g to the right-hand side. Multipliers have no mass and rotations no weight.
+/// Adds Δt m g to the right-hand side. Multipliers have no mass, and only bodies off their centre have a torque of weight.
 #[inline(always)]
-pub fn gravity<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn gravity<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
     let (masses, right) = (&*block.mass, &mut *block.right);
@@ -21,6 +22,7 @@ pub fn gravity<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         let push = isa.load(&masses[dof]) * (gravity[axis] * dt);
         isa.store(isa.load(&right[dof]) + push, &mut right[dof]);
     }
+    off_centre::gravity::<D, I>(isa, model, block, gravity);
 }
 
 /// Adds Δt times the magnetic wrench on every body magnet.
@@ -42,9 +44,9 @@ pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
         let mut wrench = [isa.splat(0.0); WRENCH];
         if let (true, Some(magnetics), Some(sources)) = (computes, &program.magnetics, &sources) {
             if D == 2 {
-                planar_wrench(isa, magnetics, sources, block, [body, dof], &mut wrench);
+                planar_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
             } else {
-                spatial_wrench(isa, magnetics, sources, block, [body, dof], &mut wrench);
+                spatial_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
             }
         }
         if let Some(due) = due {
@@ -101,32 +103,40 @@ fn uniform_torque<const D: usize, I: Isa>(
     let [bx, by, bz] =
         [isa.splat(field.field_t[0]), isa.splat(field.field_t[1]), isa.splat(field.field_t[2])];
     let remanence = isa.load(&block.remanence[body]);
+    let direction = model.mesh.magnets[body].direction;
     if D == 2 {
         let cos = isa.load(&block.frame[2 * body]);
         let sin = isa.load(&block.frame[2 * body + 1]);
+        let [cos, sin] = direction.frame(cos, sin);
         wrench[2] = wrench[2] + field.magnets[body].torque(bx, by, cos, sin, remanence);
     } else {
-        let [_, up, _] = elastic::axes(isa, block, body);
-        let torque = field.magnets[body].torque_in_space([bx, by, bz], &up, remanence);
+        let moment = direction.in_space(&elastic::axes(isa, block, body));
+        let torque = field.magnets[body].torque_in_space([bx, by, bz], &moment, remanence);
         for k in 0..3 {
             wrench[3 + k] = wrench[3 + k] + torque[k];
         }
     }
 }
 
-/// (F_x, F_y, T_z) of all drive magnets.
+/// (F_x, F_y, T_z) of all drive magnets, about the middle of the body's element.
 #[inline(always)]
 fn planar_wrench<I: Isa>(
     isa: I,
+    model: &Model,
     magnetics: &Magnetics,
     sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
-    [body, dof]: [usize; 2],
+    body: usize,
     total: &mut [I::F; WRENCH],
 ) {
-    let (x, y) = (isa.load(&block.q[dof]), isa.load(&block.q[dof + 1]));
+    let (magnet, dof) = (&model.mesh.magnets[body], model.coordinates.bodies[body]);
+    let (mut x, mut y) = (isa.load(&block.q[dof]), isa.load(&block.q[dof + 1]));
     let cos = isa.load(&block.frame[2 * body]);
     let sin = isa.load(&block.frame[2 * body + 1]);
+    let arm = magnet.offset_m.map(|[a, u, _]| [cos * a - sin * u, sin * a + cos * u]);
+    if let Some(arm) = arm {
+        (x, y) = (x + arm[0], y + arm[1]);
+    }
     let Sources { layout, robot, stage: [stage_x, stage_y, _], .. } = *sources;
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
     for pair in &magnetics.pairs[body] {
@@ -134,7 +144,11 @@ fn planar_wrench<I: Isa>(
         let strength = remanence * layout.polarity[pair.source];
         let wrench = match &magnetics.models[pair.model] {
             PairModel::Cuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
-            PairModel::Dipole(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
+            PairModel::ObliqueCuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
+            PairModel::Dipole(pair) => {
+                let [cos, sin] = magnet.direction.frame(cos, sin);
+                pair.wrench(dx, y - stage_y, cos, sin, strength)
+            }
             PairModel::SpatialCuboid(_) | PairModel::SpatialDipole(_) => continue,
         };
         for axis in 0..3 {
@@ -142,36 +156,47 @@ fn planar_wrench<I: Isa>(
         }
         block.counters.wrenches += 1;
     }
+    if let Some([x, y]) = arm {
+        total[2] = total[2] + (x * total[1] - y * total[0]);
+    }
 }
 
-/// Force and torque of all drive magnets, which stand turned about the vertical by the stage's yaw.
+/// Force and torque of all drive magnets about the middle of the body's element; they stand turned about the vertical by the
+/// stage's yaw.
 #[inline(always)]
 fn spatial_wrench<I: Isa>(
     isa: I,
+    model: &Model,
     magnetics: &Magnetics,
     sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
-    [body, dof]: [usize; 2],
+    body: usize,
     total: &mut [I::F; WRENCH],
 ) {
     let Sources { layout, robot, stage, yaw: (sin, cos) } = *sources;
+    let (magnet, dof) = (&model.mesh.magnets[body], model.coordinates.bodies[body]);
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
     let mut axes = elastic::axes(isa, block, body);
+    let arm = magnet
+        .offset_m
+        .map(|[a, u, s]| [0, 1, 2].map(|k| axes[0][k] * a + axes[1][k] * u + axes[2][k] * s));
+    let mut place = [0, 1, 2].map(|k| isa.load(&block.q[dof + k]));
+    if let Some(arm) = &arm {
+        place = [0, 1, 2].map(|k| place[k] + arm[k]);
+    }
     for k in 0..3 {
         axes[k] = turned(&axes[k], cos, -sin);
     }
     for pair in &magnetics.pairs[body] {
         let [x, z] = layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
-        let offset = [
-            isa.load(&block.q[dof]) - x,
-            isa.load(&block.q[dof + 1]) - stage[1],
-            isa.load(&block.q[dof + 2]) - z,
-        ];
+        let offset = [place[0] - x, place[1] - stage[1], place[2] - z];
         let offset = turned(&offset, cos, -sin);
         let wrench = match &magnetics.models[pair.model] {
             PairModel::SpatialCuboid(pair) => pair.wrench(offset, axes),
-            PairModel::SpatialDipole(pair) => pair.wrench(&offset, &axes[1]),
-            PairModel::Cuboid(_) | PairModel::Dipole(_) => continue,
+            PairModel::SpatialDipole(pair) => {
+                pair.wrench(&offset, &magnet.direction.in_space(&axes))
+            }
+            PairModel::Cuboid(_) | PairModel::ObliqueCuboid(_) | PairModel::Dipole(_) => continue,
         };
         let strength = remanence * layout.polarity[pair.source];
         let force = turned(&[wrench[0], wrench[1], wrench[2]], cos, sin);
@@ -181,6 +206,10 @@ fn spatial_wrench<I: Isa>(
             total[3 + axis] = total[3 + axis] + torque[axis] * strength * magnetics.terms[3 + axis];
         }
         block.counters.wrenches += 1;
+    }
+    if let Some(arm) = arm {
+        let moment = cross(&arm, &[total[0], total[1], total[2]]);
+        (0..3).for_each(|k| total[3 + k] = total[3 + k] + moment[k]);
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod hold;
 mod loads;
+mod off_centre;
 mod ties;
 
 use crate::elastic::{self, Scheme};
@@ -19,6 +20,7 @@ use crate::state::Block;
 
 pub use hold::rows as held_rows;
 pub use loads::{gravity, magnets};
+pub use off_centre::carry;
 
 /// Begins matrix and right-hand side of a step: inertia alone.
 #[inline(always)]
@@ -28,6 +30,7 @@ pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
     if D == 3 {
         rotary_inertia(isa, model, block);
     }
+    off_centre::inertia::<D, I>(isa, model, block);
 }
 
 /// Adds the springs of the rod, and the multipliers where magnets are held by them.

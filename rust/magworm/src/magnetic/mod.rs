@@ -24,6 +24,7 @@ mod cuboid;
 mod dipole;
 mod far;
 mod near;
+mod oblique;
 mod planar;
 mod quadrature;
 mod separation;
@@ -35,6 +36,7 @@ mod wrench;
 
 pub use cuboid::field_t;
 pub use dipole::{PlanarDipole, SpatialDipole, dipole_wrench};
+pub use oblique::ObliquePair;
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
 pub use spatial::SpatialPair;

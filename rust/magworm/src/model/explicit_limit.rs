@@ -35,7 +35,8 @@ pub struct ExplicitLimit {
 }
 
 impl Model {
-    /// The largest stable step of the explicit scheme for this body, whatever scheme the scene asks for.
+    /// The largest stable step of the explicit scheme for this body, whatever scheme the scene asks for; as if its centres of
+    /// mass lay in the middle of their elements, see [`super::OffCentre`].
     pub fn explicit_limit(&self) -> ExplicitLimit {
         let most = waves::draw(self, Parameter::Damping, |vary| vary.high);
         let damping_s = most * self.scene.material.damping_time_s;

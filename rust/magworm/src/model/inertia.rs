@@ -3,24 +3,89 @@
 //! Half of a soft element's rubber goes to each of its nodes. The rubber around a magnet goes ⅙, ⅔, ⅙
 //! to its head end, centre and tail end (Simpson), which keeps mass and moment of inertia m l²/12. In space a
 //! magnet has a moment of inertia about its tangent, up and side, and a soft element about its tangent.
+//!
+//! A magnet whose centre lies r beside the middle of its element brings a first moment m r and products of inertia
+//! −m r_k r_l about it. The cavity that it leaves in the rubber takes as much of the rubber away, so that an empty one filled
+//! with rubber brings none.
 
 use super::coordinates::{Anchor, Coordinates};
-use super::{Element, Mesh};
+use super::{Element, Mesh, MeshMagnet};
 use crate::scene::Scene;
+use std::ops::Range;
 
-/// A contribution to the diagonal mass of one unknown.
+/// A contribution to the diagonal mass of one unknown, or to a moment of a body off its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassPart {
-    /// The unknown.
-    pub dof: usize,
-    /// Always there [kg or kg·m²].
+    /// The unknown, or the row of the moment.
+    pub row: usize,
+    /// Always there [kg or kg·m²; kg·m of a first moment].
     pub rubber: f64,
     /// The magnet whose presence adds `magnet` and whose absence adds `fill`.
     pub body: Option<usize>,
-    /// Of the magnet [kg or kg·m²].
+    /// Of the magnet.
     pub magnet: f64,
-    /// Of the rubber in an empty cavity [kg or kg·m²].
+    /// Of the rubber in an empty cavity.
     pub fill: f64,
+}
+
+/// A rigid body whose centre of mass may lie beside the middle of its element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OffCentre {
+    /// The body.
+    pub body: usize,
+    /// Its first unknown.
+    pub dof: usize,
+    /// The first of its rows beside the masses of unknowns: the first moment of mass along the body and up [kg·m]; in space
+    /// also to its side, then the products of inertia of up and side, side and tangent, tangent and up [kg·m²].
+    pub row: usize,
+    /// Contributions to these rows, in place of unknowns.
+    pub parts: Vec<MassPart>,
+}
+
+/// Rows of a body that is off its centre, in the plane or in space.
+pub const fn off_centre_rows(dimensions: usize) -> usize {
+    if dimensions == 2 { 2 } else { 6 }
+}
+
+/// The bodies whose magnets lie beside the middle of their elements.
+pub fn off_centre(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<OffCentre> {
+    let rows = off_centre_rows(coordinates.dimensions);
+    let density_kg_m3 = scene.material.density_kg_m3;
+    let bodies = (0..mesh.magnets.len()).filter(|body| mesh.magnets[*body].offset_m.is_some());
+    bodies
+        .enumerate()
+        .map(|(place, body)| OffCentre {
+            body,
+            dof: coordinates.bodies[body],
+            row: rows * place,
+            parts: moments(
+                density_kg_m3,
+                &mesh.magnets[body],
+                body,
+                rows * place..rows * (place + 1),
+            ),
+        })
+        .collect()
+}
+
+/// First moments and products of inertia of a magnet and its cavity.
+fn moments(
+    density_kg_m3: f64,
+    magnet: &MeshMagnet,
+    body: usize,
+    rows: Range<usize>,
+) -> Vec<MassPart> {
+    let [x, y, z] = magnet.offset_m.unwrap_or_default();
+    let (magnet_kg, cavity_kg) = (magnet.mass_kg(), density_kg_m3 * magnet.volume_m3());
+    let arms = if rows.len() == 2 { vec![x, y] } else { vec![x, y, z, -y * z, -z * x, -x * y] };
+    let part = |(row, arm)| MassPart {
+        row,
+        rubber: -cavity_kg * arm,
+        body: Some(body),
+        magnet: magnet_kg * arm,
+        fill: cavity_kg * arm,
+    };
+    rows.zip(arms).map(part).collect()
 }
 
 /// Contributions to the mass of every unknown that has one.
@@ -31,7 +96,7 @@ pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<
         .iter()
         .enumerate()
         .filter(|(_, mass)| **mass > 0.0)
-        .map(|(dof, &rubber)| MassPart { dof, rubber, body: None, magnet: 0.0, fill: 0.0 })
+        .map(|(dof, &rubber)| MassPart { row: dof, rubber, body: None, magnet: 0.0, fill: 0.0 })
         .collect();
     for body in 0..mesh.magnets.len() {
         parts.extend(body_parts(density_kg_m3, mesh, coordinates, body));
@@ -94,30 +159,31 @@ fn body_parts(
     let volume_m3 = magnet.volume_m3();
     let around_kg = density_kg_m3 * (length_m * thickness_m * width_m - volume_m3);
     let (magnet_kg, fill_kg) = (magnet.density_kg_m3 * volume_m3, density_kg_m3 * volume_m3);
-    let part = |dof, rubber, gyration_m2| MassPart {
-        dof,
+    let part = |row, rubber, gyration_m2| MassPart {
+        row,
         rubber,
         body: Some(body),
         magnet: magnet_kg * gyration_m2,
         fill: fill_kg * gyration_m2,
     };
-    // About an axis: the rubber's length is in its points.
-    let about_side = (gyration_m2(thickness_m, 0.0), gyration_m2(length_m, height_m));
+    // About an axis: the rubber's length is in its points. Squares of the radii of gyration, and of the distance of the magnet.
+    let [x, y, z] = magnet.offset_m.unwrap_or_default();
+    let about_side =
+        (gyration_m2(thickness_m, 0.0), gyration_m2(length_m, height_m), x * x + y * y);
     let rotations = if coordinates.dimensions == 2 {
         vec![about_side]
     } else {
         vec![
-            (gyration_m2(thickness_m, width_m), gyration_m2(height_m, depth_m)),
-            (gyration_m2(width_m, 0.0), gyration_m2(length_m, depth_m)),
+            (gyration_m2(thickness_m, width_m), gyration_m2(height_m, depth_m), y * y + z * z),
+            (gyration_m2(width_m, 0.0), gyration_m2(length_m, depth_m), z * z + x * x),
             about_side,
         ]
     };
     let first = dof + coordinates.dimensions;
     let translations = (dof..first).map(|dof| part(dof, around_kg * 2.0 / 3.0, 1.0));
-    let rotations = rotations
-        .into_iter()
-        .enumerate()
-        .map(|(k, (rubber, magnet))| part(first + k, around_kg * rubber, magnet));
+    let rotations = rotations.into_iter().enumerate().map(|(k, (rubber, magnet, beside))| {
+        part(first + k, around_kg * rubber - fill_kg * beside, magnet + beside)
+    });
     translations.chain(rotations).collect()
 }
 

@@ -1,8 +1,10 @@
 //! Compiled wrench of the drive magnets on the body magnets.
 
 use super::{Mesh, MeshMagnet};
-use crate::magnetic::{self, Cuboid, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair};
-use crate::scene::{Drive, MagnetModel, Scene};
+use crate::magnetic::{
+    self, Cuboid, ObliquePair, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair,
+};
+use crate::scene::{Direction, Drive, MagnetModel, Scene};
 use nalgebra::Vector3;
 
 /// The pairs of magnets of a scene, and which components of their wrench act.
@@ -37,6 +39,8 @@ pub struct MagneticPair {
 pub enum PairModel {
     /// Closed-form field, integrated over the charged faces, in the plane.
     Cuboid(PlanarPair),
+    /// The same with a body magnet whose remanence leans.
+    ObliqueCuboid(ObliquePair),
     /// Point dipoles in the plane.
     Dipole(PlanarDipole),
     /// Closed-form field, integrated over the charged faces, in space; both remanences are 1 T.
@@ -80,12 +84,18 @@ impl PairModel {
         let source =
             Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
         let body = magnet.cuboid();
-        let order = scene.solver.quadrature_order;
+        let (direction, order) = (magnet.direction, scene.solver.quadrature_order);
         match (scene.solver.magnet_model, scene.dimensions) {
-            (MagnetModel::Cuboid, 2) => Self::Cuboid(PlanarPair::new(source, body, order)),
+            (MagnetModel::Cuboid, 2) => match direction {
+                Direction::Up => Self::Cuboid(PlanarPair::new(source, body, order)),
+                Direction::Oblique(vector) => {
+                    Self::ObliqueCuboid(ObliquePair::new(source, body, vector, order))
+                }
+            },
             (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(source, body)),
             (MagnetModel::Cuboid, _) => {
-                Self::SpatialCuboid(SpatialPair::new(&unit(source), &unit(body), order))
+                let (source, body) = (unit(source, Direction::Up), unit(body, direction));
+                Self::SpatialCuboid(SpatialPair::new(&source, &body, order))
             }
             (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(source, body)),
         }
@@ -103,10 +113,10 @@ fn terms(scene: &Scene) -> [f64; 6] {
     acts.map(|on| if on { 1.0 } else { 0.0 })
 }
 
-/// A cuboid of 1 T along its height, in the order length, height, width.
-fn unit(cuboid: Cuboid) -> magnetic::Magnet {
+/// A cuboid of 1 T, in the order length, height, width.
+fn unit(cuboid: Cuboid, direction: Direction) -> magnetic::Magnet {
     magnetic::Magnet {
         size_m: Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m),
-        remanence_t: Vector3::y(),
+        remanence_t: direction.vector().into(),
     }
 }

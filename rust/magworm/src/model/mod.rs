@@ -12,7 +12,7 @@ mod waves;
 
 pub use crate::scene::{Element, Mesh, MeshMagnet, Sole};
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
-pub use inertia::MassPart;
+pub use inertia::{MassPart, OffCentre, off_centre_rows};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
 pub use shape::Shape;
@@ -43,6 +43,8 @@ pub struct Model {
     pub shape: Option<Shape>,
     /// Contributions to the mass of each unknown.
     pub inertia: Vec<MassPart>,
+    /// Rigid bodies whose centre of mass may lie beside the middle of their element; none costs nothing.
+    pub off_centre: Vec<OffCentre>,
     /// Unknowns that are translations, with their axis (0 for x, 1 for y, 2 for z).
     pub translations: Vec<(usize, usize)>,
     /// Greatest thickness of the body [m].
@@ -159,6 +161,7 @@ impl Model {
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
         let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
+        let off_centre = inertia::off_centre(scene, &mesh, &coordinates);
         let touching = if scene.ground.is_some() { &mesh.soles[..] } else { &[] };
         let system = system(&coordinates, &stretch, &bend, touching);
         let contacts = contact_points(touching, &coordinates, &system);
@@ -178,6 +181,7 @@ impl Model {
             bend,
             shape: Shape::new(scene, &mesh),
             inertia,
+            off_centre,
             phases: Phase::of(&program, &contacts),
             contacts,
             program,

@@ -85,7 +85,7 @@ impl Masses {
         let mut of = vec![0.0; coordinates.count];
         for part in inertia::mass_parts(&model.scene, &model.mesh, &coordinates) {
             let present = part.body.is_none_or(|body| model.mesh.magnets[body].present);
-            of[part.dof] += part.rubber + if present { part.magnet } else { part.fill };
+            of[part.row] += part.rubber + if present { part.magnet } else { part.fill };
         }
         Self { of, coordinates }
     }

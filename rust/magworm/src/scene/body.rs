@@ -144,12 +144,22 @@ pub struct SegmentMagnet {
     pub remanence_t: f64,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
-    /// Direction of the remanence from up [°]: 0 is up, 180 down.
+    /// Direction of the remanence in the plane of length and thickness, from up towards the head [°]: 0 is up, 90 towards the
+    /// head, 180 down, −90 towards the tail.
     #[serde(default)]
     pub angle_deg: f64,
+    /// By how much the remanence leans out of that plane, towards the side [°]; 0 in the plane.
+    #[serde(default)]
+    pub aside_deg: f64,
     /// Place of its centre from that of the segment, towards the tail [m].
     #[serde(default)]
     pub along_m: f64,
+    /// The same upwards [m].
+    #[serde(default)]
+    pub up_m: f64,
+    /// The same towards the side [m]; 0 in the plane.
+    #[serde(default)]
+    pub aside_m: f64,
     /// Whether it is in its place; else its cavity is filled with rubber, and the segment is as stiff as before.
     #[serde(default = "present")]
     pub present: bool,

@@ -1,10 +1,49 @@
-//! Direction of a magnet's remanence in the frame of its segment.
+//! Direction of a magnet's remanence in the frame of its body: along it, up and to its side.
 
+use crate::lanes::Real;
 use crate::lanes::math::{radians, sin_cos};
+
+/// A direction; most magnets point up or, with a negative remanence, down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// Up.
+    Up,
+    /// Any other, as a unit vector.
+    Oblique([f64; 3]),
+}
+
+impl Direction {
+    /// As a unit vector along the body, up and to its side.
+    pub fn vector(&self) -> [f64; 3] {
+        match *self {
+            Self::Up => [0.0, 1.0, 0.0],
+            Self::Oblique(vector) => vector,
+        }
+    }
+
+    /// Cosine and sine of the angle in the plane of a frame whose up is the direction, from those of the body.
+    #[inline(always)]
+    pub fn frame<F: Real>(&self, cos: F, sin: F) -> [F; 2] {
+        match *self {
+            Self::Up => [cos, sin],
+            Self::Oblique([along, up, _]) => [cos * up + sin * along, sin * up - cos * along],
+        }
+    }
+
+    /// The direction in space of a body with these axes.
+    #[inline(always)]
+    pub fn in_space<F: Real>(&self, axes: &[[F; 3]; 3]) -> [F; 3] {
+        match *self {
+            Self::Up => axes[1],
+            Self::Oblique(part) => [0, 1, 2]
+                .map(|k| axes[0][k] * part[0] + axes[1][k] * part[1] + axes[2][k] * part[2]),
+        }
+    }
+}
 
 /// Along the body, up and to the side: `angle_deg` from up towards the head, then `aside_deg` out of that plane [°].
 /// Quarter turns are exact.
-pub(super) fn direction(angle_deg: f64, aside_deg: f64) -> [f64; 3] {
+pub(super) fn unit_vector(angle_deg: f64, aside_deg: f64) -> [f64; 3] {
     let (sin, cos) = sin_cos_deg(angle_deg);
     let (aside, flat) = sin_cos_deg(aside_deg);
     // Adding 0 turns −0 into 0.
@@ -25,20 +64,20 @@ fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::direction;
+    use super::unit_vector;
 
     #[test]
     fn quarter_turns_are_exact() {
-        assert_eq!(direction(0.0, 0.0), [0.0, 1.0, 0.0]);
-        assert_eq!(direction(90.0, 0.0), [-1.0, 0.0, 0.0]);
-        assert_eq!(direction(-90.0, 0.0), [1.0, 0.0, 0.0]);
-        assert_eq!(direction(-180.0, 0.0), [0.0, -1.0, 0.0]);
-        assert_eq!(direction(30.0, 90.0), [0.0, 0.0, 1.0]);
+        assert_eq!(unit_vector(0.0, 0.0), [0.0, 1.0, 0.0]);
+        assert_eq!(unit_vector(90.0, 0.0), [-1.0, 0.0, 0.0]);
+        assert_eq!(unit_vector(-90.0, 0.0), [1.0, 0.0, 0.0]);
+        assert_eq!(unit_vector(-180.0, 0.0), [0.0, -1.0, 0.0]);
+        assert_eq!(unit_vector(30.0, 90.0), [0.0, 0.0, 1.0]);
     }
 
     #[test]
     fn other_angles_lean_towards_the_head_and_aside() {
-        let [along, up, side] = direction(30.0, -20.0);
+        let [along, up, side] = unit_vector(30.0, -20.0);
         let (flat, root) = (0.939_692_620_785_908_4, 0.866_025_403_784_438_6);
         assert!((along + 0.5 * flat).abs() < 1e-15 && (up - root * flat).abs() < 1e-15);
         assert!((side + 0.342_020_143_325_668_7).abs() < 1e-15);

@@ -123,7 +123,10 @@ static SEGMENT_MAGNET: Table = Table {
         required("remanence_t", REMANENCE),
         required("density_kg_m3", DENSITY),
         optional("angle_deg", TURN),
+        optional("aside_deg", real("°", -90.0, 90.0)),
         optional("along_m", OFFSET),
+        optional("up_m", OFFSET),
+        optional("aside_m", OFFSET),
         optional("present", Kind::Flag),
     ],
 };

@@ -1,6 +1,6 @@
 //! The mesh: nodes, rod elements, rigid magnets. Section changes and magnet ends fall on nodes.
 
-use super::direction::direction;
+use super::direction::{Direction, unit_vector};
 use super::{Plan, Scene, Segment, SegmentMagnet};
 use crate::magnetic::Cuboid;
 
@@ -39,14 +39,14 @@ pub struct MeshMagnet {
     pub half_length_m: f64,
     /// Edges along the body, its thickness and its width [m].
     pub size_m: [f64; 3],
-    /// Place of its centre from the middle of its element: along the body, up, to the side [m].
-    pub offset_m: [f64; 3],
+    /// Place of its centre from the middle of its element, along the body, up and to the side [m]; none where it is there.
+    pub offset_m: Option<[f64; 3]>,
     /// Magnitude of the remanence [T].
     pub remanence_t: f64,
     /// −1 where it is magnetised straight down, else 1: sign of its remanence along `direction`.
     pub polarity: f64,
-    /// Direction of the remanence along the body, up and to the side; up where it is magnetised straight down.
-    pub direction: [f64; 3],
+    /// Direction of the remanence; up where it is magnetised straight down.
+    pub direction: Direction,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
     /// Whether the scene leaves the magnet in.
@@ -216,16 +216,17 @@ impl Mesh {
 }
 
 fn mesh_magnet(magnet: &SegmentMagnet, element: usize) -> MeshMagnet {
-    let direction = direction(magnet.angle_deg, 0.0);
-    let down = direction == [0.0, -1.0, 0.0];
+    let vector = unit_vector(magnet.angle_deg, magnet.aside_deg);
+    let (upright, down) = (vector[1].abs() == 1.0, vector[1] == -1.0);
+    let offset_m = [0.0, magnet.up_m, magnet.aside_m];
     MeshMagnet {
         element,
         half_length_m: 0.5 * magnet.length_m,
         size_m: [magnet.length_m, magnet.height_m, magnet.width_m],
-        offset_m: [0.0; 3],
+        offset_m: (offset_m != [0.0; 3]).then_some(offset_m),
         remanence_t: magnet.remanence_t,
         polarity: if down { -1.0 } else { 1.0 },
-        direction: if down { [0.0, 1.0, 0.0] } else { direction },
+        direction: if upright { Direction::Up } else { Direction::Oblique(vector) },
         density_kg_m3: magnet.density_kg_m3,
         present: magnet.present,
     }

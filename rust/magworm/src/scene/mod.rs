@@ -34,9 +34,10 @@ pub use crate::integrate::Integrator;
 pub use body::{
     Body, Clamp, Magnet, Material, Rod, RodMagnet, Segment, SegmentMagnet, Segments, Worm,
 };
+#[doc(hidden)] // for the project's own tests
+pub use direction::Direction;
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
-#[doc(hidden)] // for the project's own tests
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;

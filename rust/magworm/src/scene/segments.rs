@@ -128,7 +128,10 @@ fn upright(magnet: &Magnet, polarity: i8) -> SegmentMagnet {
         remanence_t: magnet.remanence_t,
         density_kg_m3: magnet.density_kg_m3,
         angle_deg: if polarity > 0 { 0.0 } else { 180.0 },
+        aside_deg: 0.0,
         along_m: 0.0,
+        up_m: 0.0,
+        aside_m: 0.0,
         present: true,
     }
 }

@@ -6,7 +6,7 @@ use crate::actuator::{ActuatorRows, Sizes};
 use crate::contact::Workspace;
 use crate::equations::held_rows;
 use crate::lanes::{InstructionSet, Row};
-use crate::model::Model;
+use crate::model::{Model, off_centre_rows};
 
 /// Why an environment stands still.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -117,6 +117,9 @@ pub struct Block<R: Row> {
     // Derived from the factors and the magnets present, by reset.
     /// Mass of each unknown [kg, kg·m²], shape [unknowns].
     pub mass: Rows<R>,
+    /// First moments and products of inertia of bodies off their centre [kg·m, kg·m²], see
+    /// [`crate::model::OffCentre::row`].
+    pub off_centre: Rows<R>,
     /// Remanence of each body magnet along its up direction [T], 0 where it is out, shape [magnets].
     pub remanence: Rows<R>,
 
@@ -182,6 +185,7 @@ impl<R: Row> Block<R> {
             wrench: zeros(held_rows(model)),
             status: vec![Status::Unused; R::LANES].into(),
             mass: zeros(unknowns),
+            off_centre: zeros(off_centre_rows(dimensions) * model.off_centre.len()),
             remanence: zeros(magnets),
             running: zeros(1),
             node: zeros(dimensions * nodes),

@@ -32,6 +32,7 @@ impl<R: Row> Block<R> {
             status,
             // The workspace.
             mass,
+            off_centre,
             remanence,
             running,
             node,
@@ -51,6 +52,7 @@ impl<R: Row> Block<R> {
         } = self;
         let rows = [
             mass,
+            off_centre,
             remanence,
             running,
             node,

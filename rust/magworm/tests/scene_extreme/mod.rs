@@ -12,8 +12,8 @@ const RUBBER_KG_M3: f64 = 1070.0;
 /// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
     let shape = dice(bends::NUMBERS);
-    (dice(16), dice(24), dice(24), shape).prop_map(
-        move |(mut body, mut world, mut rest, mut shape)| {
+    (dice(16), dice(24), dice(24), dice(40), shape).prop_map(
+        move |(mut body, mut world, mut rest, mut parts, mut shape)| {
             let (body, magnet) = robot_or_rod(&mut body, most_nodes);
             let solver = solver(&mut rest);
             let steps = rest.whole(1, 40) as f64;
@@ -51,7 +51,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 reset: Reset::default(),
             };
             scene.solver = with_interval(scene.solver, &scene.control, rest.whole(1, 12));
-            within_the_limit(bends::bend(scene, &mut shape))
+            within_the_limit(bends::bend(in_unequal_segments(scene, &mut parts), &mut shape))
         },
     )
 }
@@ -77,6 +77,27 @@ fn robot_or_rod(dice: &mut Dice, most_nodes: usize) -> (Body, Magnet) {
     let elements = dice.whole(4, most_nodes - 8);
     let clamp = dice.one_of(&[Clamp::None, Clamp::None, Clamp::Head]);
     (Body::Rod(Rod { length_m: 0.054, width_m, thickness_m, elements, clamp, magnets }), magnet)
+}
+
+/// Every other scene of an implicit scheme: its body in segments, as thick as they come out, with magnets of any height,
+/// direction and place in their section.
+fn in_unequal_segments(scene: Scene, dice: &mut Dice) -> Scene {
+    if scene.solver.integrator == Integrator::Explicit || dice.coin() {
+        return scene;
+    }
+    let mut scene = scene.in_segments();
+    let Body::Segments(body) = &mut scene.body else { return scene };
+    for segment in &mut body.segment {
+        segment.thickness_m = dice.decades(segment.thickness_m, 0.03);
+        if let Some(magnet) = &mut segment.magnet {
+            magnet.height_m = dice.decades(1e-4, segment.thickness_m);
+            magnet.angle_deg = dice.between(-180.0, 180.0);
+            magnet.up_m = 0.5 * dice.between(-1.0, 1.0) * (segment.thickness_m - magnet.height_m);
+            let room_m = segment.width_m - magnet.width_m;
+            magnet.aside_m = 0.5 * dice.in_space(scene.dimensions, -1.0, 1.0) * room_m;
+        }
+    }
+    scene
 }
 
 fn worm(dice: &mut Dice, magnets: usize, thickness_m: f64, width_m: f64, spare: usize) -> Body {

@@ -10,12 +10,12 @@ pub const ELEMENT_M: f64 = 1.01e-5;
 /// Shortest and longest edge [m].
 pub const EDGE_M: (f64, f64) = (1e-4, 0.5);
 
-pub fn body(dice: &mut Dice, most_nodes: usize) -> (Body, Option<Magnet>) {
+pub fn body(dice: &mut Dice, most_nodes: usize, dimensions: usize) -> (Body, Option<Magnet>) {
     let most_nodes = most_nodes.clamp(6, 1000);
     match dice.one_of(&[0, 1, 2]) {
         0 => worm(dice, most_nodes),
         1 => rod(dice, most_nodes),
-        _ => (segments(dice, most_nodes), None),
+        _ => (segments(dice, most_nodes, dimensions), None),
     }
 }
 

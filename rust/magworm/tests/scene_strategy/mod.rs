@@ -15,7 +15,8 @@ use dice::{Dice, dice};
 /// Valid scenes of 2 or 3 dimensions whose bodies have at most `most_nodes` nodes (6 or more, at
 /// most 1000).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
-    let body = dice(segments::NUMBERS).prop_map(move |mut dice| body::body(&mut dice, most_nodes));
+    let body = dice(segments::NUMBERS)
+        .prop_map(move |mut dice| body::body(&mut dice, most_nodes, dimensions));
     let drive =
         prop::option::of(dice(96).prop_map(move |mut dice| drive::drive(&mut dice, dimensions)));
     let ground = prop::option::of(dice(5).prop_map(|mut dice| ground(&mut dice)));
@@ -53,6 +54,8 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     control,
                     reset: random_reset(&mut reset),
                 };
+                // Bodies off their centre have no explicit scheme.
+                let scene = if scene.validate().is_err() { implicit(scene) } else { scene };
                 bends::bend(scene, &mut shape)
             },
         )

@@ -4,7 +4,21 @@ use magworm::Model;
 use magworm::scene::Scene;
 use std::sync::Arc;
 
-/// Fields of a scene and their values in TOML.
+/// Three magnets of three sizes and directions in feet of three sections, the second one above the middle of its foot, the
+/// third one towards its tail.
+const MIXED: &str = "{ kind = 'segments', segment = [
+    { length_m = 0.014, thickness_m = 0.007, width_m = 0.011, foot = true, elements = 1, magnet = {
+        length_m = 0.006, height_m = 0.002, width_m = 0.007, remanence_t = 1.2, density_kg_m3 = 7500 } },
+    { length_m = 0.006, thickness_m = 0.004, width_m = 0.011, elements = 4 },
+    { length_m = 0.012, thickness_m = 0.008, width_m = 0.013, foot = true, elements = 1, magnet = {
+        length_m = 0.008, height_m = 0.002, width_m = 0.006, remanence_t = 1.3, density_kg_m3 = 7500,
+        angle_deg = 180, up_m = 0.0015 } },
+    { length_m = 0.007, thickness_m = 0.004, width_m = 0.010, elements = 3 },
+    { length_m = 0.014, thickness_m = 0.006, width_m = 0.012, foot = true, elements = 2, magnet = {
+        length_m = 0.004, height_m = 0.003, width_m = 0.008, remanence_t = 1.1, density_kg_m3 = 7300,
+        angle_deg = 50, along_m = 0.002 } } ] }";
+
+/// Fields of a scene and their values in TOML; an empty text takes a field out.
 type Edits = &'static [(&'static str, &'static str)];
 
 /// Name, preset and edits of each scene.
@@ -183,6 +197,38 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ),
         ],
     ),
+    (
+        "mixed magnets",
+        "paper-3",
+        &[("magnet", ""), ("body", MIXED), ("field", "{ x_t = 0.002, y_t = -0.001 }")],
+    ),
+    (
+        "mixed magnets in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.03"),
+            ("drive.motion.yaw_reach_deg", "120"),
+            ("magnet", ""),
+            ("body", MIXED),
+            ("body.segment[2].magnet.aside_m", "-0.001"),
+            ("body.segment[4].magnet.aside_deg", "35"),
+        ],
+    ),
+    (
+        "mixed dipoles in single precision in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("solver.precision", "'single'"),
+            ("solver.magnet_model", "'dipole'"),
+            ("drive.motion.lateral_reach_m", "0.03"),
+            ("magnet", ""),
+            ("body", MIXED),
+            ("body.segment[2].magnet.aside_m", "-0.001"),
+            ("body.segment[4].magnet.aside_deg", "35"),
+        ],
+    ),
     ("rolled up", "paper-4", &[("start.bends_deg", "[150, 0, 270]")]),
     (
         "twisted in space",
@@ -203,7 +249,10 @@ pub fn model(name: &str) -> Arc<Model> {
     let (_, preset, edits) = SCENES[place.expect("a listed scene")];
     let edits: Vec<_> = edits
         .iter()
-        .map(|(path, value)| (path.to_string(), Some(value.parse().expect("TOML"))))
+        .map(|(path, value)| {
+            let value = (!value.is_empty()).then(|| value.parse().expect("TOML"));
+            (path.to_string(), value)
+        })
         .chain([("name".to_string(), Some(name.into()))])
         .collect();
     let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));

@@ -112,7 +112,7 @@ impl World {
     pub fn assemble<const D: usize>(&mut self) {
         let (model, block) = (&self.model, &mut self.block);
         equations::inertia::<D, _>(Scalar, model, block);
-        equations::gravity(Scalar, model, block);
+        equations::gravity::<D, _>(Scalar, model, block);
         equations::magnets::<D, _>(Scalar, model, block);
         equations::springs::<D, _>(Scalar, model, block);
     }

@@ -37,11 +37,14 @@ fn with_magnet(path: &str, segment: &Segment, magnet: &SegmentMagnet) -> Result<
     fits("length_m", magnet.length_m, "length_m", segment.length_m)?;
     fits("height_m", magnet.height_m, "thickness_m", segment.thickness_m)?;
     fits("width_m", magnet.width_m, "width_m", segment.width_m)?;
-    let rooms = [("along_m", magnet.along_m, segment.length_m - magnet.length_m)];
+    let rooms = [
+        ("along_m", magnet.along_m, segment.length_m - magnet.length_m),
+        ("up_m", magnet.up_m, segment.thickness_m - magnet.height_m),
+        ("aside_m", magnet.aside_m, segment.width_m - magnet.width_m),
+    ];
     rooms.into_iter().try_for_each(|(axis, offset_m, room_m)| {
         within(&format!("{path}.magnet.{axis}"), offset_m, 0.5 * room_m)
     })?;
-    upright(path, magnet)?;
     let ends_m = segment.ends_m(magnet).into_iter().filter(|end_m| *end_m > 0.0);
     let field = format!("{path}.elements");
     ends_m.into_iter().try_for_each(|end_m| elements_long_enough(&field, segment.elements, end_m))
@@ -131,12 +134,4 @@ fn counts(body: &Segments) -> Result<(), Problem> {
         format!("a list of {}", body.segment.len()),
         || format!("at most {MOST_NODES} nodes in the body, here {nodes}"),
     )
-}
-
-/// Pair models know one direction.
-fn upright(path: &str, magnet: &SegmentMagnet) -> Result<(), Problem> {
-    let holds = [0.0, 180.0, -180.0].contains(&magnet.angle_deg);
-    require(holds, format!("{path}.magnet.angle_deg"), quantity(magnet.angle_deg, "°"), || {
-        "0, 180 or -180°".into()
-    })
 }

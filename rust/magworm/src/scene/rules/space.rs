@@ -2,7 +2,7 @@
 
 use super::super::error::Problem;
 use super::super::schema::quantity;
-use super::super::{Motion, Scene};
+use super::super::{Body, Motion, Scene};
 use super::require;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
@@ -13,6 +13,14 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     flat("start.yaw_deg", scene.start.yaw_deg, "°")?;
     all_flat("start.bends_aside_deg", &scene.start.bends_aside_deg, "°")?;
     all_flat("start.twists_deg", &scene.start.twists_deg, "°")?;
+    if let Body::Segments(body) = &scene.body {
+        body.segment.iter().enumerate().try_for_each(|(place, segment)| {
+            let magnet = segment.magnet.as_ref();
+            let path = format!("body.segment[{place}].magnet");
+            flat(&format!("{path}.aside_deg"), magnet.map_or(0.0, |m| m.aside_deg), "°")?;
+            flat(&format!("{path}.aside_m"), magnet.map_or(0.0, |m| m.aside_m), "m")
+        })?;
+    }
     flat("field.z_t", scene.field.as_ref().map_or(0.0, |field| field.z_t), "T")?;
     scene.drive.as_ref().map_or(Ok(()), |drive| motion(&drive.motion))
 }

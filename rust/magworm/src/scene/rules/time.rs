@@ -2,7 +2,7 @@
 
 use super::super::error::Problem;
 use super::super::schema::quantity;
-use super::super::{Integrator, Parameter, Precision, Scene};
+use super::super::{Body, Integrator, Parameter, Precision, Scene, Segment};
 use super::require;
 
 /// Shortest step of the implicit schemes [s]: below it the inertia swamps the elastic terms.
@@ -27,11 +27,28 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
             format!("{} or more for {implicit}", quantity(SHORTEST_IMPLICIT_STEP_S, "s"))
         },
     )?;
+    off_centre(scene)?;
     precision(scene)?;
     whole_number("control.step_s", control.step_s, "solver.step_s", step_s)?;
     wrench_interval(scene)?;
     whole_number("control.episode_s", control.episode_s, "control.step_s", control.step_s)?;
     variations(scene)
+}
+
+/// The stable step of the explicit scheme is known for motions that do not meet, which a centre of mass beside the middle
+/// couples.
+fn off_centre(scene: &Scene) -> Result<(), Problem> {
+    let Body::Segments(body) = &scene.body else { return Ok(()) };
+    let beside = |segment: &Segment| {
+        segment.magnet.as_ref().is_some_and(|magnet| magnet.up_m != 0.0 || magnet.aside_m != 0.0)
+    };
+    let Some(place) = body.segment.iter().position(beside) else { return Ok(()) };
+    let integrator = scene.solver.integrator;
+    let name = format!("\"{}\"", integrator.coefficients().name);
+    require(!integrator.is_explicit(), "solver.integrator", name, || {
+        let implicit = Integrator::names(false);
+        format!("{implicit} where body.segment[{place}].magnet has up_m or aside_m")
+    })
 }
 
 fn precision(scene: &Scene) -> Result<(), Problem> {

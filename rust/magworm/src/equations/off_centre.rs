@@ -1,0 +1,280 @@
+//! Rigid bodies whose centre of mass lies beside the middle of their element.
+//!
+//! The unknowns of a body are the place X of the middle of its element and its rotation. With its first moment of mass
+//! S = m r [kg·m], r from X to the centre of mass, and its inertia I about X, momentum and angular momentum about X are
+//!
+//! p = m v + ω × S,   L = I ω + S × v,
+//!
+//! so S couples velocity and rotation in M, and weight has the torque S × g. After a step the centre of mass has moved
+//! straight, with its own velocity v_c = v + ω × r, and the body has turned about it with its angular momentum there, I_c ω;
+//! X and v follow from both. That is the centrifugal force, and free flight keeps both momenta to rounding.
+
+use crate::elastic;
+use crate::elastic::vector::{cross, dot};
+use crate::lanes::math::sin_cos;
+use crate::lanes::{Isa, Real};
+use crate::model::{Model, OffCentre};
+use crate::state::Block;
+
+/// Pairs of axes whose products of inertia stand in three rows, in this order.
+const PRODUCTS: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
+
+/// Adds what S brings to both sides, and in space the products of inertia.
+#[inline(always)]
+pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    for body in &model.off_centre {
+        let axes = axes_before::<D, I>(isa, block, body);
+        let s = first_moment::<D, I>(isa, block, body, &axes);
+        let velocity = vector::<D, I>(isa, &block.v, body.dof);
+        let rate = rotation::<D, I>(isa, &block.v, body.dof);
+        let (push, spin) = (cross(&rate, &s), cross(&s, &velocity));
+        let first = body.dof + D;
+        (0..D).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
+        if D == 2 {
+            add(isa, spin[2], &mut block.right[first]);
+            set(isa, model, block, first, body.dof, -s[1]);
+            set(isa, model, block, first, body.dof + 1, s[0]);
+        } else {
+            for k in 0..3 {
+                let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                add(isa, spin[k], &mut block.right[first + k]);
+                set(isa, model, block, first + k, body.dof + next, -s[last]);
+                set(isa, model, block, first + k, body.dof + last, s[next]);
+            }
+            add_products(isa, model, block, body, &axes, &rate);
+        }
+    }
+}
+
+/// Adds the torque Δt S × g of the weight.
+#[inline(always)]
+pub fn gravity<const D: usize, I: Isa>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<I::Row>,
+    gravity_m_s2: [f64; 3],
+) {
+    let pull = gravity_m_s2.map(|g| isa.splat(g * model.step_s));
+    for body in &model.off_centre {
+        let axes = axes_before::<D, I>(isa, block, body);
+        let torque = cross(&first_moment::<D, I>(isa, block, body, &axes), &pull);
+        let first = body.dof + D;
+        if D == 2 {
+            add(isa, torque[2], &mut block.right[first]);
+        } else {
+            (0..3).for_each(|k| add(isa, torque[k], &mut block.right[first + k]));
+        }
+    }
+}
+
+/// Moves bodies and their velocities over a step as their centres of mass move, in the lanes of `go`; places and frames are
+/// already those at its end, as if X had moved straight.
+#[inline(always)]
+pub fn carry<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
+    for body in &model.off_centre {
+        let (before, after) =
+            (axes_before::<D, I>(isa, block, body), axes_after::<D, I>(isa, model, block, body));
+        let share = one_over(isa.load(&block.mass[body.dof]));
+        let arm = |axes| first_moment::<D, I>(isa, block, body, axes).map(|s| s * share);
+        let (from, to) = (arm(&before), arm(&after));
+        let rate = rotation::<D, I>(isa, &block.next, body.dof);
+        let swing = cross(&rate, &from);
+        let rate = if D == 2 {
+            rate
+        } else {
+            turned_rate(isa, block, body, share, &rate, [&before, &after])
+        };
+        let swung = cross(&rate, &to);
+        for k in 0..D {
+            let velocity = isa.load(&block.next[body.dof + k]) + swing[k] - swung[k];
+            let place = isa.load(&block.q[body.dof + k]);
+            let place = place + (swing[k] * model.step_s - (to[k] - from[k]));
+            keep(isa, go, place, &mut block.q[body.dof + k]);
+            keep(isa, go, velocity, &mut block.v[body.dof + k]);
+        }
+        if D == 3 {
+            (0..3).for_each(|k| keep(isa, go, rate[k], &mut block.v[body.dof + 3 + k]));
+        }
+    }
+}
+
+/// The angular velocity after a step, by the angular momentum about the centre of mass before it.
+#[inline(always)]
+fn turned_rate<I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    body: &OffCentre,
+    share: I::F,
+    rate: &[I::F; 3],
+    [before, after]: [&[[I::F; 3]; 3]; 2],
+) -> [I::F; 3] {
+    let inertia = central_inertia(isa, block, body, share);
+    let momentum = world(before, &product(&inertia, &within(before, rate)));
+    world(after, &solved(&inertia, &within(after, &momentum)))
+}
+
+/// Inertia about the centre of mass along the body's own axes.
+#[inline(always)]
+fn central_inertia<I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    body: &OffCentre,
+    share: I::F,
+) -> [[I::F; 3]; 3] {
+    let s = [0, 1, 2].map(|k| isa.load(&block.off_centre[body.row + k]));
+    let square = dot(&s, &s) * share;
+    let mut inertia = [[isa.splat(0.0); 3]; 3];
+    for k in 0..3 {
+        inertia[k][k] = isa.load(&block.mass[body.dof + 3 + k]) - (square - s[k] * s[k] * share);
+    }
+    for (row, (k, l)) in PRODUCTS.into_iter().enumerate() {
+        let entry = isa.load(&block.off_centre[body.row + 3 + row]) + s[k] * s[l] * share;
+        (inertia[k][l], inertia[l][k]) = (entry, entry);
+    }
+    inertia
+}
+
+/// Adds I_kl (a_k a_lᵀ + a_l a_kᵀ) to the inertia of a body with the axes a, and its part of the momentum.
+#[inline(always)]
+fn add_products<I: Isa>(
+    isa: I,
+    model: &Model,
+    block: &mut Block<I::Row>,
+    body: &OffCentre,
+    axes: &[[I::F; 3]; 3],
+    rate: &[I::F; 3],
+) {
+    let first = body.dof + 3;
+    for (at, (k, l)) in PRODUCTS.into_iter().enumerate() {
+        let entry = isa.load(&block.off_centre[body.row + 3 + at]);
+        let (by_k, by_l) = (dot(&axes[k], rate) * entry, dot(&axes[l], rate) * entry);
+        for row in 0..3 {
+            add(isa, axes[k][row] * by_l + axes[l][row] * by_k, &mut block.right[first + row]);
+            for column in 0..=row {
+                let both = axes[k][row] * axes[l][column] + axes[l][row] * axes[k][column];
+                let place = model.system.at(first + row, first + column);
+                add(isa, both * entry, &mut block.matrix[place]);
+            }
+        }
+    }
+}
+
+/// S in x, y, z.
+#[inline(always)]
+fn first_moment<const D: usize, I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    body: &OffCentre,
+    axes: &[[I::F; 3]; 3],
+) -> [I::F; 3] {
+    world(axes, &vector::<D, I>(isa, &block.off_centre, body.row))
+}
+
+/// Axes of a body at the start of a step.
+#[inline(always)]
+fn axes_before<const D: usize, I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    body: &OffCentre,
+) -> [[I::F; 3]; 3] {
+    if D == 3 {
+        return elastic::axes(isa, block, body.body);
+    }
+    let frame = &block.frame[2 * body.body..];
+    planar_axes(isa.load(&frame[0]), isa.load(&frame[1]))
+}
+
+/// Axes of a body at the end of a step.
+#[inline(always)]
+fn axes_after<const D: usize, I: Isa>(
+    isa: I,
+    model: &Model,
+    block: &Block<I::Row>,
+    body: &OffCentre,
+) -> [[I::F; 3]; 3] {
+    if D == 3 {
+        let first = 6 * model.mesh.magnets[body.body].element;
+        let up = vector::<3, I>(isa, &block.director, first);
+        let tangent = vector::<3, I>(isa, &block.director, first + 3);
+        return [tangent, up, cross(&tangent, &up)];
+    }
+    let (sin, cos) = sin_cos(isa.load(&block.q[body.dof + 2]));
+    planar_axes(cos, sin)
+}
+
+/// Tangent, up and side of a body in the plane.
+#[inline(always)]
+fn planar_axes<F: Real>(cos: F, sin: F) -> [[F; 3]; 3] {
+    let (zero, one) = (cos.splat(0.0), cos.splat(1.0));
+    [[cos, sin, zero], [-sin, cos, zero], [zero, zero, one]]
+}
+
+/// A vector of the first D components, 0 beyond.
+#[inline(always)]
+fn vector<const D: usize, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
+    let mut vector = [isa.splat(0.0); 3];
+    (0..D).for_each(|k| vector[k] = isa.load(&rows[first + k]));
+    vector
+}
+
+/// Angular velocity of a body whose unknowns begin at `dof`.
+#[inline(always)]
+fn rotation<const D: usize, I: Isa>(isa: I, rows: &[I::Row], dof: usize) -> [I::F; 3] {
+    let zero = isa.splat(0.0);
+    if D == 2 { [zero, zero, isa.load(&rows[dof + 2])] } else { vector::<3, I>(isa, rows, dof + 3) }
+}
+
+/// 1/m; 1 for a robot without mass.
+#[inline(always)]
+fn one_over<F: Real>(mass: F) -> F {
+    let one = mass.splat(1.0);
+    one / F::select(mass.gt(mass.splat(0.0)), mass, one)
+}
+
+#[inline(always)]
+fn add<I: Isa>(isa: I, value: I::F, row: &mut I::Row) {
+    isa.store(isa.load(row) + value, row);
+}
+
+#[inline(always)]
+fn keep<I: Isa>(isa: I, mask: I::M, value: I::F, row: &mut I::Row) {
+    isa.store(I::F::select(mask, value, isa.load(row)), row);
+}
+
+#[inline(always)]
+fn set<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, a: usize, b: usize, value: I::F) {
+    isa.store(value, &mut block.matrix[model.system.at(a, b)]);
+}
+
+/// Σ a_k v_k: from the axes a to x, y, z.
+#[inline(always)]
+fn world<F: Real>(axes: &[[F; 3]; 3], v: &[F; 3]) -> [F; 3] {
+    [0, 1, 2].map(|i| axes[0][i] * v[0] + axes[1][i] * v[1] + axes[2][i] * v[2])
+}
+
+/// Components along the axes.
+#[inline(always)]
+fn within<F: Real>(axes: &[[F; 3]; 3], v: &[F; 3]) -> [F; 3] {
+    [0, 1, 2].map(|k| dot(&axes[k], v))
+}
+
+#[inline(always)]
+fn product<F: Real>(a: &[[F; 3]; 3], x: &[F; 3]) -> [F; 3] {
+    [0, 1, 2].map(|k| dot(&a[k], x))
+}
+
+/// x of A x = b for a symmetric positive A, by L D Lᵀ; 0 where A is 0, as for a robot without mass.
+#[inline(always)]
+fn solved<F: Real>(a: &[[F; 3]; 3], b: &[F; 3]) -> [F; 3] {
+    let by_0 = one_over(a[0][0]);
+    let (l1, l2) = (a[1][0] * by_0, a[2][0] * by_0);
+    let by_1 = one_over(a[1][1] - l1 * a[1][0]);
+    let below = a[2][1] - l2 * a[1][0];
+    let l3 = below * by_1;
+    let by_2 = one_over(a[2][2] - l2 * a[2][0] - l3 * below);
+    let y1 = b[1] - l1 * b[0];
+    let y2 = b[2] - l2 * b[0] - l3 * y1;
+    let x2 = y2 * by_2;
+    let x1 = y1 * by_1 - l3 * x2;
+    [b[0] * by_0 - l1 * x1 - l2 * x2, x1, x2]
+}
