@@ -191,6 +191,9 @@ class Batch:
         quaternion w, x, y, z, w ≥ 0, that turns x, y, z into the magnet's tangent, up and side."""
     def magnet_velocities(self) -> NDArray[np.float64]:
         """(N, M, 3): [m/s], [m/s], [rad/s]; in space (N, M, 6): along and about x, y, z."""
+    def magnet_wrenches(self) -> NDArray[np.float64]:
+        """Force [N] and torque about its middle [N·m] of drive and field on each body magnet, as the next
+        step takes them: (N, M, 3), F_x, F_y, T_z; in space (N, M, 6)."""
     def node_positions(self) -> NDArray[np.float64]:
         """(N, K, 2), in space (N, K, 3) [m]: the centre line, head first."""
     def drive_positions(self) -> NDArray[np.float64]:

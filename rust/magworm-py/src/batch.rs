@@ -243,6 +243,14 @@ impl Batch {
         })
     }
 
+    fn magnet_wrenches<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
+        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 6])];
+        let rows = self.seen(py, "magnet_wrenches", product(&shape[1..]), |view, row| {
+            row.copy_from_slice(&view.magnet_wrenches());
+        })?;
+        shaped(py, rows, shape)
+    }
+
     fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
         let shape = [self.count, self.model.nodes(), self.of_dimensions([2, 3])];
         self.table(py, "node_positions", shape, |view, k, row| view.write_node(k, row))

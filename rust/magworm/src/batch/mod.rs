@@ -7,6 +7,7 @@ mod pool;
 mod rollout;
 mod snapshot;
 mod view;
+mod wrenches;
 
 pub(crate) use control::advance_block;
 pub use episode::Start;

@@ -1,5 +1,6 @@
 //! Looking at one environment of a batch, whatever the width of its block.
 
+use super::wrenches::magnet_wrenches;
 use crate::actuator::{Actuator, Stage, states};
 use crate::lanes::{Number, Row};
 use crate::model::Model;
@@ -34,6 +35,7 @@ trait LaneView {
     fn status(&self, lane: usize) -> Status;
     fn observe(&self, model: &Model, lane: usize, row: &mut [f32]);
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64>;
+    fn wrenches(&self, model: &Model, lane: usize) -> Vec<f64>;
 }
 
 impl<R: Row> LaneView for Block<R> {
@@ -57,6 +59,9 @@ impl<R: Row> LaneView for Block<R> {
     }
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
         Block::robot_pose(self, model, lane)
+    }
+    fn wrenches(&self, model: &Model, lane: usize) -> Vec<f64> {
+        magnet_wrenches(model, self, lane)
     }
     fn steps(&self, lane: usize) -> f64 {
         self.step_count[0][lane].f64()
@@ -141,6 +146,12 @@ impl View<'_> {
     pub fn magnet_pose(&self, magnet: usize) -> Vec<f64> {
         self.row([3, 7], |row| self.write_magnet_pose(magnet, row))
     }
+    /// Force [N] and torque about its middle [N·m] of drive and field on each body magnet, one after another, as the next step
+    /// takes them: (F_x, F_y, T_z) in the plane, (F_x, F_y, F_z, T_x, T_y, T_z) in space.
+    pub fn magnet_wrenches(&self) -> Vec<f64> {
+        self.block.wrenches(self.model, self.lane)
+    }
+
     /// A row of its own, see [`Self::write_magnet_velocity`].
     pub fn magnet_velocity(&self, magnet: usize) -> Vec<f64> {
         self.row([3, 6], |row| self.write_magnet_velocity(magnet, row))
