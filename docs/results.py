@@ -1,6 +1,6 @@
 """Puts into a Markdown file what the long comparisons found: verdict and first table of their reports.
 
-The reports stand in ``docs/results/``, one for each of ``make demo``, ``make turn`` and ``make reach``::
+The reports stand in ``docs/results/``, from ``make demo``; nothing is typed by hand::
 
     python docs/results.py --take crawl runs/demo/report.md   # keeps the report of a run
     python docs/results.py README.md                          # writes the blocks
@@ -14,7 +14,7 @@ from pathlib import Path
 from blocks import write_or_check
 
 RESULTS = Path(__file__).parent / "results"
-COMPARISONS = ("crawl", "turn", "reach")
+COMPARISONS = ("crawl", "turn")
 
 
 def block(report: str) -> str:

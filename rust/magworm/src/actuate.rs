@@ -2,7 +2,7 @@
 
 use crate::actuator::{Clock, each};
 use crate::draws::Draws;
-use crate::lanes::{Isa, Real, Row};
+use crate::lanes::{Isa, Number, Real, Row};
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
@@ -29,8 +29,9 @@ pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut act
 /// Moves the actuators to where they are at the end of a step.
 #[inline(always)]
 pub fn advance<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let count = I::Row::of_lanes(|lane| Number::of(block.step_count[lane] as f64));
     let clock = Clock {
-        time_s: isa.load(&block.step_count[0]) * model.step_s,
+        time_s: isa.load(&count) * model.step_s,
         step_s: model.step_s,
         speed_factor: isa.load(&block.factors[Parameter::DriveSpeed as usize]),
         running: isa.load(&block.running[0]).eq(isa.splat(1.0)),

@@ -58,7 +58,7 @@ pub mod internals {
     pub use crate::contact::Mode;
     pub use crate::draws::Draws;
     pub use crate::elastic::kinematics;
-    pub use crate::model::{Anchor, PairModel, Phase, Sole, Wave};
+    pub use crate::model::{Allowed, Anchor, PairModel, Phase, ROWS, Role, RowGroup, Sole, Wave};
     pub use crate::record::{Recording, Watch, record};
     pub use crate::reset::{reset, scene_start};
     pub use crate::state::{Block, Rows};

@@ -39,8 +39,18 @@ pub fn scene_start(model: &Model) -> StartPose {
     }
 }
 
+impl<R: Row> Block<R> {
+    /// A block whose robots lie at rest, unused until they are [`reset`].
+    pub fn new(model: &Model) -> Self {
+        let mut block = Self::zeros(model);
+        (0..R::LANES).for_each(|lane| rest(model, &mut block, lane));
+        block
+    }
+}
+
 /// Puts one lane to rest with the scene's own parameters, unused until [`reset`].
-pub fn rest<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
+fn rest<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
+    clear(block, lane);
     for row in block.factors.iter_mut() {
         row[lane] = R::Number::of(1.0);
     }
@@ -62,6 +72,7 @@ pub fn reset<R: Row>(
     present: &[bool],
     mut draws: Draws,
 ) {
+    clear(block, lane);
     for (k, &factor) in factors.iter().enumerate() {
         block.factors[k][lane] = R::Number::of(factor);
     }
@@ -79,15 +90,16 @@ pub fn reset<R: Row>(
     block.status[lane] = Status::Running;
 }
 
-/// Lays the body of one lane down, at rest.
+/// Zeroes the state of one lane.
+fn clear<R: Row>(block: &mut Block<R>, lane: usize) {
+    for rows in block.state_rows_mut() {
+        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
+    }
+    block.step_count[lane] = 0;
+}
+
+/// Lays the body of one lane down.
 fn lay<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, start: StartPose) {
-    for rows in block.state_rows_mut().into_iter().take(6) {
-        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
-    }
-    for rows in [&mut block.twist, &mut block.wrench] {
-        rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
-    }
-    block.step_count[0][lane] = R::Number::default();
     match &model.shape {
         None => put(model, block, lane, &Straight::new(model, start)),
         Some(shape) => {

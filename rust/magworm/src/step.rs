@@ -121,8 +121,9 @@ fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
         mark_broken(isa, block, running, [finite, intact, above]);
     }
     let go = running & sound;
-    let count = isa.load(&block.step_count[0]);
-    isa.store(I::F::select(go, count + 1.0, count), &mut block.step_count[0]);
+    for lane in 0..I::Row::LANES {
+        block.step_count[lane] += u64::from(block.running[0][lane].f64() == 1.0);
+    }
     let (lag, size) = (model.scene.solver.integrator.coefficients().lag, model.coordinates.count);
     let (places, speeds) = (&mut block.q[..size], &mut block.v[..size]);
     let (ends, lags) = (&block.next[..size], &mut block.lagged[..size]);

@@ -83,7 +83,7 @@ impl Hand {
         block.right.fill([0.0; WIDE]);
         block.run_phase_on(InstructionSet::widest(), model, Phase::Magnets);
         for lane in 0..WIDE {
-            let due = (block.step_count[0][lane] as u64).is_multiple_of(self.interval);
+            let due = block.step_count[lane].is_multiple_of(self.interval);
             for (push, new) in self.push.iter_mut().zip(block.right.iter()).filter(|_| due) {
                 push[lane] = new[lane];
             }

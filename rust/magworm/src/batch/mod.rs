@@ -1,6 +1,8 @@
 //! A batch: many environments of one model, stepped together on all cores.
 
 mod blocks;
+mod check;
+mod column;
 mod control;
 mod episode;
 mod pool;
@@ -9,11 +11,11 @@ mod snapshot;
 mod view;
 mod wrenches;
 
+pub use check::SnapshotError;
 pub(crate) use control::advance_block;
 pub use episode::Start;
 pub use pool::Pool;
 pub use rollout::{Plan, RolloutOutput};
-pub use snapshot::SnapshotError;
 pub use view::View;
 
 use crate::interruption::{Interrupted, Interruption};
@@ -338,11 +340,11 @@ impl Batch {
         })
     }
 
-    /// Columns of the state of one environment, see `snapshot.rs`.
-    fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
+    /// Hands the state of one environment on, see `snapshot.rs`.
+    fn write_state(&self, environment: usize, add: &mut dyn FnMut(u64)) {
         with_blocks!(&self.blocks, blocks => {
             let (block, lane) = place(blocks, environment);
-            snapshot::write_lane(block, lane, out);
+            snapshot::write_lane(block, lane, add);
         });
     }
 

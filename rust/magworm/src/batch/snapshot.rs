@@ -1,41 +1,28 @@
 //! Saving and restoring a batch, bit for bit.
 //!
-//! A snapshot is a header (magic, version, environments, bytes per environment, fingerprint of the
-//! scene) and one column per environment, so it does not depend on how environments were laid out in
-//! lanes. Numbers are little-endian `f64`, which hold those of a scene in single precision too.
+//! A snapshot is a list of little-endian words of eight bytes: a header (magic, layout, environments, words per
+//! environment, checksum of all other words) and one column per environment (fingerprint of the scene, rows of the state,
+//! solver steps, status, settings of the next reset), so it does not depend on how environments were laid out in lanes.
+//! Numbers are `f64`, which hold those of a scene in single precision too.
+//!
+//! The layout is a sum over the declaration of the rows ([`ROWS`]): a row more, one renamed or moved gives another.
+//! A snapshot is checked whole before anything is changed.
 
 use super::Batch;
+use super::check::{SnapshotError, check};
+use super::column::{Column, WORD, column_words, number};
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::{Number, Row};
-use crate::model::Model;
+use crate::model::{Model, ROWS, Role, Sum};
 use crate::reset::apply_parameters;
-use crate::state::{Block, Status};
+use crate::state::Block;
 use std::sync::Arc;
 
-const MAGIC: &[u8; 8] = b"MAGWORM1";
-const HEADER: usize = 8 + 3 * 8;
-
-/// A snapshot that does not fit.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SnapshotError {
-    /// Not a snapshot, or cut short.
-    #[error("state is not a MagWorm snapshot, or it was cut short ({0} bytes)")]
-    Malformed(usize),
-    /// Of another number of environments.
-    #[error("state holds {found} environments; this batch has {expected}")]
-    Count {
-        /// In the snapshot.
-        found: u64,
-        /// In the batch.
-        expected: u64,
-    },
-    /// Of another scene.
-    #[error("state was saved from another scene; compare the scenes' TOML")]
-    Scene,
-    /// A status code that none has.
-    #[error("state holds the unknown status code {0}")]
-    StatusCode(u8),
-}
+const MAGIC: &[u8; WORD] = b"MAGWORM2";
+/// Words of the header.
+const HEADER: usize = 5;
+/// Its last word.
+const CHECKSUM: usize = HEADER - 1;
 
 impl Batch {
     /// Everything that changes in time.
@@ -48,7 +35,7 @@ impl Batch {
 
     /// Length of a snapshot [bytes].
     pub fn snapshot_bytes(&self) -> usize {
-        HEADER + self.count() * self.column_bytes()
+        WORD * (HEADER + self.count() * column_words(self.model()))
     }
 
     /// Writes a snapshot of just that length.
@@ -60,26 +47,26 @@ impl Batch {
         interruption: &Interruption<'_>,
         out: &mut [u8],
     ) -> Result<(), Interrupted> {
-        let size = self.column_bytes();
-        let (header, columns) = out.split_at_mut(HEADER);
-        let numbers = [self.count() as u64, size as u64, fingerprint(self.model())];
-        header[..8].copy_from_slice(MAGIC);
-        let places = header[8..].chunks_exact_mut(8);
-        places
-            .zip(numbers)
-            .for_each(|(place, number)| place.copy_from_slice(&number.to_le_bytes()));
-        self.pool().fill(interruption, columns, size, |environment, column| {
-            let mut bytes = Vec::with_capacity(size);
+        let words = column_words(self.model());
+        let (header, columns) = out.split_at_mut(WORD * HEADER);
+        self.pool().fill(interruption, columns, WORD * words, |environment, column| {
+            let mut bytes = Vec::with_capacity(WORD * words);
             self.write_column(environment, &mut bytes);
-            self.write_settings(environment, &mut bytes);
             column.copy_from_slice(&bytes);
-        })
+        })?;
+        let magic = number(MAGIC);
+        let numbers = [magic, layout(), self.count() as u64, words as u64, 0];
+        let places = header.chunks_exact_mut(WORD);
+        places.zip(numbers).for_each(|(place, word)| place.copy_from_slice(&word.to_le_bytes()));
+        let sum = checksum(out);
+        out[WORD * CHECKSUM..][..WORD].copy_from_slice(&sum.to_le_bytes());
+        Ok(())
     }
 
     /// Takes a snapshot over.
     ///
     /// # Errors
-    /// A snapshot of another scene or size, or one that is damaged; nothing is changed then.
+    /// A snapshot of another scene, size or layout, or one that is damaged; nothing is changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
         self.restore_unless(&Interruption::never(), bytes).unwrap_or(Ok(()))
     }
@@ -96,40 +83,51 @@ impl Batch {
         if let Err(error) = self.check(bytes) {
             return Ok(Err(error));
         }
-        let (size, settings) = (self.column_bytes(), self.settings_bytes());
-        let column = |environment: usize| {
-            bytes[HEADER + size * environment..][..size].split_at(size - settings)
-        };
+        let size = WORD * column_words(self.model());
+        let column = |environment: usize| &bytes[WORD * HEADER + size * environment..][..size];
         self.read_columns(interruption, |environment, state| {
-            state.extend_from_slice(column(environment).0);
+            state.extend_from_slice(column(environment));
         })?;
-        (0..self.count()).for_each(|k| self.read_settings(k, column(k).1));
+        (0..self.count())
+            .for_each(|environment| self.read_settings(environment, column(environment)));
         Ok(Ok(()))
     }
 
     /// Whether a snapshot is one of this batch.
     fn check(&self, bytes: &[u8]) -> Result<(), SnapshotError> {
-        let size = self.column_bytes();
+        self.check_header(bytes)?;
+        let model = &**self.model();
+        let columns = bytes[WORD * HEADER..].chunks(WORD * column_words(model));
+        columns.enumerate().try_for_each(|(environment, column)| {
+            check(model, environment, &Column::of(model, column))
+        })
+    }
+
+    fn check_header(&self, bytes: &[u8]) -> Result<(), SnapshotError> {
         let malformed = SnapshotError::Malformed(bytes.len());
-        if bytes.len() < HEADER || &bytes[..8] != MAGIC {
+        if bytes.len() < WORD * HEADER || !bytes.starts_with(&MAGIC[..WORD - 1]) {
             return Err(malformed);
         }
-        let found = number(&bytes[8..]);
-        if found != self.count() as u64 {
-            return Err(SnapshotError::Count { found, expected: self.count() as u64 });
+        let [magic, layout_found, count, words, sum] =
+            std::array::from_fn(|k| number(&bytes[WORD * k..]));
+        if magic != number(MAGIC) || layout_found != layout() {
+            return Err(SnapshotError::Layout {
+                found: layout_name(&bytes[..WORD], layout_found),
+                expected: layout_name(MAGIC, layout()),
+            });
         }
-        if number(&bytes[24..]) != fingerprint(self.model()) || number(&bytes[16..]) != size as u64
-        {
+        let length = count.checked_mul(words).and_then(|words| words.checked_add(HEADER as u64));
+        if length.and_then(|words| words.checked_mul(WORD as u64)) != Some(bytes.len() as u64) {
+            return Err(malformed);
+        }
+        if sum != checksum(bytes) {
+            return Err(SnapshotError::Checksum(bytes.len()));
+        }
+        if count != self.count() as u64 {
+            return Err(SnapshotError::Count { found: count, expected: self.count() as u64 });
+        }
+        if words != column_words(self.model()) as u64 {
             return Err(SnapshotError::Scene);
-        }
-        if bytes.len() != HEADER + self.count() * size {
-            return Err(malformed);
-        }
-        let columns = &bytes[HEADER..];
-        let settings = self.settings_bytes();
-        for column in columns.chunks(size) {
-            let code = column[size - settings - 1];
-            Status::from_code(code).ok_or(SnapshotError::StatusCode(code))?;
         }
         Ok(())
     }
@@ -156,77 +154,77 @@ impl Batch {
         batch.read_columns(interruption, |copy, state| {
             self.write_column(environments[copy], state);
         })?;
-        let mut settings = Vec::new();
+        let mut column = Vec::new();
         for (copy, &environment) in environments.iter().enumerate() {
-            settings.clear();
-            self.write_settings(environment, &mut settings);
-            batch.read_settings(copy, &settings);
+            column.clear();
+            self.write_column(environment, &mut column);
+            batch.read_settings(copy, &column);
         }
         Ok(batch)
     }
 
-    fn column_bytes(&self) -> usize {
-        let mut column = Vec::new();
-        if self.count() > 0 {
-            self.write_column(0, &mut column);
-        }
-        column.len() + self.settings_bytes()
-    }
-
-    fn settings_bytes(&self) -> usize {
-        8 * Model::PARAMETERS.len() + self.model().magnets()
-    }
-
-    /// Factors and magnets for the next reset.
-    fn write_settings(&self, environment: usize, out: &mut Vec<u8>) {
+    /// Everything of one environment.
+    fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
         let (parameters, magnets) = (Model::PARAMETERS.len(), self.model().magnets());
+        let mut add = |word: u64| out.extend(word.to_le_bytes());
+        add(self.model().fingerprint);
+        self.write_state(environment, &mut add);
         let factors = &self.factors()[environment * parameters..][..parameters];
-        factors.iter().for_each(|factor| out.extend(factor.to_bits().to_le_bytes()));
-        out.extend(self.present()[environment * magnets..][..magnets].iter().map(|&p| u8::from(p)));
+        factors.iter().for_each(|factor| add(factor.to_bits()));
+        let present = &self.present()[environment * magnets..][..magnets];
+        present.iter().for_each(|&is_in| add(u64::from(is_in)));
     }
 
-    fn read_settings(&mut self, environment: usize, bytes: &[u8]) {
+    /// Takes factors and magnets for the next reset over from a column.
+    fn read_settings(&mut self, environment: usize, column: &[u8]) {
         let (parameters, magnets) = (Model::PARAMETERS.len(), self.model().magnets());
-        let (factors, present) = bytes.split_at(8 * parameters);
-        for (factor, bits) in
-            self.factors_mut()[environment * parameters..].iter_mut().zip(factors.chunks(8))
-        {
-            *factor = f64::from_bits(number(bits));
-        }
-        for (is_in, &byte) in self.present_mut()[environment * magnets..].iter_mut().zip(present) {
-            *is_in = byte == 1;
-        }
+        let model = Arc::clone(self.model());
+        let column = Column::of(&model, column);
+        let factors = &mut self.factors_mut()[environment * parameters..][..parameters];
+        factors.iter_mut().zip(column.next_factors()).for_each(|(factor, next)| *factor = next);
+        let present = &mut self.present_mut()[environment * magnets..][..magnets];
+        present.iter_mut().zip(column.next_present()).for_each(|(is_in, next)| *is_in = next == 1);
     }
 }
 
-pub(super) fn write_lane<R: Row>(block: &Block<R>, lane: usize, out: &mut Vec<u8>) {
+/// Hands the state of one lane on, word by word.
+pub(super) fn write_lane<R: Row>(block: &Block<R>, lane: usize, add: &mut dyn FnMut(u64)) {
     for rows in block.state_rows() {
-        rows.iter().for_each(|row| out.extend(row[lane].f64().to_bits().to_le_bytes()));
+        rows.iter().for_each(|row| add(row[lane].f64().to_bits()));
     }
-    out.push(block.status[lane] as u8);
+    add(block.step_count[lane]);
+    add(block.status[lane] as u64);
 }
 
+/// Takes the state of one lane over from a column that was checked.
 pub(super) fn read_lane<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, column: &[u8]) {
-    let mut numbers = column.chunks_exact(8).map(|bits| f64::from_bits(number(bits)));
+    let column = Column::of(model, column);
+    let mut numbers = column.state();
     for rows in block.state_rows_mut() {
-        for row in rows.iter_mut() {
-            row[lane] = R::Number::of(numbers.next().unwrap_or(0.0));
+        for (row, number) in rows.iter_mut().zip(&mut numbers) {
+            row[lane] = R::Number::of(number);
         }
     }
-    let code = column[column.len() - 1];
-    block.status[lane] = Status::from_code(code).unwrap_or(Status::Unused);
+    block.step_count[lane] = column.step_count();
+    block.status[lane] = column.status().unwrap_or_default();
     apply_parameters(model, block, lane);
 }
 
-fn number(bytes: &[u8]) -> u64 {
-    let mut eight = [0; 8];
-    eight.copy_from_slice(&bytes[..8]);
-    u64::from_le_bytes(eight)
+/// A sum over what is declared of the rows of the state.
+fn layout() -> u64 {
+    let state = ROWS.iter().filter(|group| group.role == Role::State);
+    state.fold(Sum::EMPTY, |sum, group| sum.text(group.name).text(group.unit)).value()
 }
 
-/// FNV-1a (Fowler, Noll & Vo) of the scene's TOML.
-fn fingerprint(model: &Model) -> u64 {
-    model.scene.to_toml().bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+/// Name of a layout for a message. The first one had no sum.
+fn layout_name(magic: &[u8], layout: u64) -> String {
+    let name = String::from_utf8_lossy(magic).escape_default().to_string();
+    if magic == b"MAGWORM1" { name } else { format!("{name}-{layout:016x}") }
+}
+
+/// A sum over all words but its own.
+fn checksum(bytes: &[u8]) -> u64 {
+    let words = bytes.chunks_exact(WORD).enumerate();
+    let others = words.filter(|(place, _)| *place != CHECKSUM);
+    others.fold(Sum::EMPTY, |sum, (_, word)| sum.word(number(word))).value()
 }

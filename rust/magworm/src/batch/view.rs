@@ -31,7 +31,7 @@ trait LaneView {
     fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
     fn actuators(&self, lane: usize) -> Vec<f64>;
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3];
-    fn steps(&self, lane: usize) -> f64;
+    fn steps(&self, lane: usize) -> u64;
     fn status(&self, lane: usize) -> Status;
     fn observe(&self, model: &Model, lane: usize, row: &mut [f32]);
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64>;
@@ -63,8 +63,8 @@ impl<R: Row> LaneView for Block<R> {
     fn wrenches(&self, model: &Model, lane: usize) -> Vec<f64> {
         magnet_wrenches(model, self, lane)
     }
-    fn steps(&self, lane: usize) -> f64 {
-        self.step_count[0][lane].f64()
+    fn steps(&self, lane: usize) -> u64 {
+        self.step_count[lane]
     }
     fn status(&self, lane: usize) -> Status {
         self.status[lane]
@@ -179,7 +179,7 @@ impl View<'_> {
     }
     /// Time since the reset [s].
     pub fn time_s(&self) -> f64 {
-        self.block.steps(self.lane) * self.model.step_s
+        self.block.steps(self.lane) as f64 * self.model.step_s
     }
     /// Status.
     pub fn status(&self) -> Status {

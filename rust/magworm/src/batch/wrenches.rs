@@ -1,8 +1,8 @@
 //! Forces on body magnets, as a step takes them.
 
-use super::snapshot::{read_lane, write_lane};
-use crate::lanes::{Row, Scalar};
+use crate::lanes::{Number, Row, Scalar};
 use crate::model::{Model, Phase, body_size};
+use crate::reset::apply_parameters;
 use crate::state::Block;
 use crate::step::run_phase;
 
@@ -10,10 +10,13 @@ use crate::step::run_phase;
 /// (F_x, F_y, T_z) in the plane, (F_x, F_y, F_z, T_x, T_y, T_z) in space. They come from the phases of a step, run on a copy of
 /// the lane.
 pub(super) fn magnet_wrenches<R: Row>(model: &Model, block: &Block<R>, lane: usize) -> Vec<f64> {
-    let mut state = Vec::new();
-    write_lane(block, lane, &mut state);
     let mut copy = Block::<[f64; 1]>::new(model);
-    read_lane(model, &mut copy, 0, &state);
+    for (rows, from) in copy.state_rows_mut().into_iter().zip(block.state_rows()) {
+        rows.iter_mut().zip(from.iter()).for_each(|(row, from)| row[0] = from[lane].f64());
+    }
+    copy.step_count[0] = block.step_count[lane];
+    copy.status[0] = block.status[lane];
+    apply_parameters(model, &mut copy, 0);
     run_phase(Scalar, model, &mut copy, Phase::Kinematics);
     copy.right.iter_mut().for_each(|row| row[0] = 0.0);
     run_phase(Scalar, model, &mut copy, Phase::Magnets);

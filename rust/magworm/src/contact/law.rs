@@ -4,6 +4,7 @@ use super::guess::{direction, length};
 use super::{Mode, Vector};
 use crate::lanes::{Isa, Real};
 use crate::model::GroundLaw;
+use crate::model::rows::RESPONSE;
 use crate::scene::Parameter;
 use crate::state::Block;
 
@@ -137,9 +138,6 @@ impl<F: Real> Point<F> {
         Impulse { impulse, closed: augmented.gt(zero), slides, share, pushed }
     }
 }
-
-/// Rows of a stored response.
-pub(super) const RESPONSE: usize = 9;
 
 /// Impulses linear in the velocity without the bias: λ = `force` − C u with
 ///

@@ -34,14 +34,13 @@ mod points;
 mod search;
 mod solve;
 mod system;
-mod workspace;
 
 use law::Ground;
 pub use points::detect;
 pub use solve::solve;
-pub use workspace::Workspace;
 
 use crate::lanes::{Isa, Real};
+use crate::state::Workspace;
 
 /// State of a contact point, kept as a number per lane.
 pub struct Mode;

@@ -5,9 +5,8 @@
 //! every lane, so what a lane does is independent of its neighbours.
 
 use crate::lanes::{Isa, Real};
+use crate::model::rows::SEARCH;
 
-/// Rows of a stored search.
-pub(super) const ROWS: usize = 6;
 const HALVINGS: f64 = 8.0;
 /// Share of the decrease that a full step promises.
 const DECREASE: f64 = 0.1;
@@ -99,7 +98,7 @@ impl<F: Real> Search<F> {
     pub(super) fn store<I: Isa<F = F>>(&self, isa: I, rows: &mut [I::Row]) {
         let [best, place] = self.best;
         let all = [self.step, self.start, best, place, self.trials, self.tolerance];
-        for k in 0..ROWS {
+        for k in 0..SEARCH {
             isa.store(all[k], &mut rows[k]);
         }
     }

@@ -9,17 +9,14 @@
 //! takes them or keeps its own; so the bits of a lane do not depend on when its neighbours were reset.
 
 use crate::lanes::{Isa, Number, Real, Row};
-use crate::model::{Model, body_size};
+use crate::model::body_size;
 use crate::state::Block;
 
 /// Lanes that run and take new wrenches in this step.
 #[inline(always)]
 pub fn due<I: Isa>(isa: I, block: &Block<I::Row>, interval: u64) -> I::M {
-    let mut since = I::Row::zeros();
-    for lane in 0..I::Row::LANES {
-        let steps = block.step_count[0][lane].f64() as u64;
-        since[lane] = Number::of((steps % interval) as f64);
-    }
+    // Steps since the last wrench.
+    let since = I::Row::of_lanes(|lane| Number::of((block.step_count[lane] % interval) as f64));
     let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
     running & isa.load(&since).eq(isa.splat(0.0))
 }
@@ -38,10 +35,4 @@ pub fn hold<const D: usize, I: Isa>(
         wrench[k] = I::F::select(due, wrench[k], isa.load(row));
         isa.store(wrench[k], row);
     }
-}
-
-/// Rows that hold the wrenches of a model: none where each acts for one step.
-pub fn rows(model: &Model) -> usize {
-    let holds = model.program.magnetics.as_ref().is_some_and(|magnetics| magnetics.interval > 1);
-    if holds { body_size(model.dimensions()) * model.magnets() } else { 0 }
 }

@@ -18,7 +18,6 @@ use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
 
-pub use hold::rows as held_rows;
 pub use loads::{gravity, magnets};
 pub use off_centre::carry;
 

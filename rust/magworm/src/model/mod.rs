@@ -3,18 +3,22 @@
 mod coordinates;
 mod explain;
 mod explicit_limit;
+mod fingerprint;
 mod inertia;
 mod line;
 mod magnetics;
 mod phases;
+pub(crate) mod rows;
 mod shape;
 mod waves;
 
 pub use crate::scene::{Element, Mesh, MeshMagnet, Sole};
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
+pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre, off_centre_rows};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
+pub use rows::{Allowed, GREATEST, ROWS, Role, RowGroup};
 pub use shape::Shape;
 pub use waves::Wave;
 
@@ -29,6 +33,8 @@ use crate::scene::{Ground, Parameter, Scene, SceneError};
 pub struct Model {
     /// The scene it was compiled from.
     pub scene: Scene,
+    /// A number that two scenes share only if they simulate the same: they may differ in their names.
+    pub fingerprint: u64,
     /// Nodes and elements.
     pub mesh: Mesh,
     /// Unknowns.
@@ -172,6 +178,7 @@ impl Model {
         let step_s = scene.solver.step_s;
         let model = Self {
             scene: scene.clone(),
+            fingerprint: fingerprint::fingerprint(scene),
             translations: translations(&coordinates),
             thickness_m: mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max),
             steps_per_control: (scene.control.step_s / step_s).round() as u32,

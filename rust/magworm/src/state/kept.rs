@@ -8,13 +8,19 @@ use crate::lanes::Row;
 #[derive(Clone, Debug)]
 pub struct Kept<R: Row> {
     rows: Vec<R>,
+    step_count: Vec<u64>,
     status: Vec<Status>,
     counters: Counters,
 }
 
 impl<R: Row> Default for Kept<R> {
     fn default() -> Self {
-        Self { rows: Vec::new(), status: Vec::new(), counters: Counters::default() }
+        Self {
+            rows: Vec::new(),
+            step_count: Vec::new(),
+            status: Vec::new(),
+            counters: Counters::default(),
+        }
     }
 }
 
@@ -25,6 +31,7 @@ impl<R: Row> Block<R> {
         let rows = self.state_rows();
         kept.rows.reserve_exact(rows.iter().map(|rows| rows.len()).sum());
         rows.iter().for_each(|rows| kept.rows.extend_from_slice(rows));
+        kept.step_count.extend_from_slice(&self.step_count);
         kept.status.extend_from_slice(&self.status);
         kept.counters = self.counters;
         self.kept = kept;
@@ -42,6 +49,7 @@ impl<R: Row> Block<R> {
     /// Goes on without what was kept; its memory stays.
     pub(crate) fn forget(&mut self) {
         self.kept.rows.clear();
+        self.kept.step_count.clear();
         self.kept.status.clear();
     }
 
@@ -56,6 +64,7 @@ impl<R: Row> Block<R> {
                 rows.copy_from_slice(these);
                 rest = others;
             }
+            self.step_count.copy_from_slice(&kept.step_count);
             self.status.copy_from_slice(&kept.status);
             self.counters = kept.counters;
         }

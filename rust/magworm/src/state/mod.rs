@@ -6,6 +6,6 @@ mod pose;
 mod rows;
 mod size;
 
-pub use block::{Block, Counters, Status};
+pub use block::{Block, Counters, Status, Workspace};
 pub use pose::{Pose, Twist};
 pub use rows::Rows;

@@ -4,7 +4,7 @@ use magworm::{Model, View};
 
 /// What can be seen of one environment after a control step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Record(Vec<(&'static str, u64)>);
+pub struct Record(pub Vec<(&'static str, u64)>);
 
 impl Record {
     /// Adds numbers by their bits.
@@ -12,9 +12,9 @@ impl Record {
         self.0.extend(values.iter().map(|value| (name, value.to_bits())));
     }
 
-    /// Adds single-precision numbers by their bits.
+    /// Adds single-precision numbers by the bits of their values.
     pub fn add_f32(&mut self, name: &'static str, values: &[f32]) {
-        self.0.extend(values.iter().map(|value| (name, u64::from(value.to_bits()))));
+        self.0.extend(values.iter().map(|value| (name, f64::from(*value).to_bits())));
     }
 
     /// Adds what a view shows.
