@@ -1,8 +1,8 @@
 //! The actuators of a block: where they start, what an action tells them, how they move in a step.
 
-use crate::actuator::{Clock, each};
+use crate::actuator::{ActuatorRows, Clock, each};
 use crate::draws::Draws;
-use crate::lanes::{Isa, Number, Real, Row};
+use crate::lanes::{Isa, Real, Row};
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
@@ -29,14 +29,15 @@ pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut act
 /// Moves the actuators to where they are at the end of a step.
 #[inline(always)]
 pub fn advance<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let count = I::Row::of_lanes(|lane| Number::of(block.step_count[lane] as f64));
+    let Block { stage, target, action, step_count, factors, running, .. } = block;
     let clock = Clock {
-        time_s: isa.load(&count) * model.step_s,
+        steps: step_count,
         step_s: model.step_s,
-        speed_factor: isa.load(&block.factors[Parameter::DriveSpeed as usize]),
-        running: isa.load(&block.running[0]).eq(isa.splat(1.0)),
+        speed_factor: &factors[Parameter::DriveSpeed as usize],
+        running: isa.load(&running[0]).eq(isa.splat(1.0)),
     };
-    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+    let rows = ActuatorRows { state: &mut **stage, target: &mut **target, action: &mut **action };
+    for (actuator, rows) in each(&model.program.actuators, rows) {
         actuator.advance::<D, I>(isa, rows, clock);
     }
 }

@@ -144,7 +144,7 @@ impl Actuator {
         &self,
         isa: I,
         rows: ActuatorRows<'_, I::Row>,
-        clock: Clock<I>,
+        clock: Clock<'_, I>,
     ) {
         match self {
             Self::Stage(stage) => stage.advance::<D, I>(isa, rows, clock),

@@ -105,18 +105,18 @@ impl Path {
         &self,
         isa: I,
         rows: &ActuatorRows<'_, I::Row>,
-        clock: Clock<I>,
+        clock: Clock<'_, I>,
     ) -> Motions<I::F> {
         match self {
             Self::Controlled(limits) => follow::<AXES, I>(isa, limits, rows, clock.step_s),
-            Self::Constant { start, speed_m_s } => {
-                let speed = clock.speed_factor * *speed_m_s;
-                let mut place = start.map(|start| isa.splat(start));
-                place[0] = speed * clock.time_s + start[0];
-                let zero = isa.splat(0.0);
-                (place, [speed, zero, zero, zero])
+            Self::Constant { start, speed_m_s } => on_lanes(isa, clock, |lane, time_s| {
+                let speed = clock.speed_factor[lane].f64() * speed_m_s;
+                let [x, y, z, yaw] = *start;
+                ([speed * time_s + x, y, z, yaw], [speed, 0.0, 0.0, 0.0])
+            }),
+            Self::Waypoints { time_s, point } => {
+                on_lanes(isa, clock, |_, now_s| on_waypoints(time_s, point, now_s))
             }
-            Self::Waypoints { time_s, point } => on_lanes(isa, time_s, point, clock.time_s),
         }
     }
 }
@@ -150,14 +150,17 @@ fn follow<const AXES: usize, I: Isa>(
     (place, speed)
 }
 
-/// Waypoints lane by lane: environments may have been reset at different times.
+/// A motion in time, lane by lane: environments may have been reset at different times. In `f64` whatever the precision of a
+/// step, in which times are soon longer than their differences can be told.
 #[inline(always)]
-fn on_lanes<I: Isa>(isa: I, time_s: &[f64], point: &[[f64; 4]], now_s: I::F) -> Motions<I::F> {
-    let mut now = I::Row::zeros();
-    isa.store(now_s, &mut now);
+fn on_lanes<I: Isa>(
+    isa: I,
+    clock: Clock<'_, I>,
+    motion: impl Fn(usize, f64) -> ([f64; 4], [f64; 4]),
+) -> Motions<I::F> {
     let (mut places, mut speeds) = ([I::Row::zeros(); 4], [I::Row::zeros(); 4]);
     for lane in 0..I::Row::LANES {
-        let (place, speed) = on_waypoints(time_s, point, now[lane].f64());
+        let (place, speed) = motion(lane, clock.steps[lane] as f64 * clock.step_s);
         for axis in 0..4 {
             places[axis][lane] = Number::of(place[axis]);
             speeds[axis][lane] = Number::of(speed[axis]);

@@ -41,13 +41,13 @@ pub struct ActuatorRows<'a, R> {
 
 /// What a step tells an actuator.
 #[derive(Clone, Copy, Debug)]
-pub struct Clock<I: Isa> {
-    /// Time since the reset at the end of the step [s].
-    pub time_s: I::F,
+pub struct Clock<'a, I: Isa> {
+    /// Steps since the reset at the end of this one, of each lane.
+    pub steps: &'a [u64],
     /// Time step [s].
     pub step_s: f64,
     /// Factor of the speed of a motion that the scene prescribes.
-    pub speed_factor: I::F,
+    pub speed_factor: &'a I::Row,
     /// Lanes that run.
     pub running: I::M,
 }

@@ -274,7 +274,7 @@ impl Stage {
         &self,
         isa: I,
         rows: ActuatorRows<'_, I::Row>,
-        clock: Clock<I>,
+        clock: Clock<'_, I>,
     ) {
         if D == 2 {
             self.advance_axes::<2, I>(isa, rows, clock);
@@ -288,7 +288,7 @@ impl Stage {
         &self,
         isa: I,
         rows: ActuatorRows<'_, I::Row>,
-        clock: Clock<I>,
+        clock: Clock<'_, I>,
     ) {
         let (place, speed) = self.path.advance::<AXES, I>(isa, &rows, clock);
         for axis in 0..AXES {
