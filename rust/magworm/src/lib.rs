@@ -29,6 +29,7 @@ mod contact;
 mod draws;
 mod elastic;
 mod equations;
+mod guard;
 mod integrate;
 mod interruption;
 mod lanes;

@@ -8,11 +8,13 @@ use crate::actuate;
 use crate::contact;
 use crate::elastic;
 use crate::equations;
-use crate::lanes::{Isa, Mask, Number, Real, Row};
+use crate::guard;
+use crate::lanes::{Isa, Number, Real, Row};
 use crate::model::{Model, Phase};
 use crate::state::{Block, Status};
 
-/// Advances a block by `steps` solver steps. Environments that break stand still.
+/// Advances a block by `steps` solver steps. Environments that break stand still; no environment that still runs has
+/// ended sunk, overstretched or too fast.
 #[inline(always)]
 pub fn advance<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     mark_running(block);
@@ -39,6 +41,10 @@ fn advance_in<const D: usize, I: Isa>(
     for _ in 0..steps {
         step::<D, I>(isa, model, block);
     }
+    isa.vectorize(
+        #[inline(always)]
+        || guard::stop_unsound::<D, I>(isa, model, block),
+    );
 }
 
 /// One solver step in D dimensions.
@@ -112,15 +118,7 @@ fn solve<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 /// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
 fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    let finite = all_finite(isa, block);
-    let intact = intact(isa, model, block);
-    let above = above_ground::<D, I>(isa, model, block);
-    let sound = finite & intact & above;
-    if (running & !sound).any() {
-        mark_broken(isa, block, running, [finite, intact, above]);
-    }
-    let go = running & sound;
+    let go = guard::may_go_on::<D, I>(isa, model, block);
     for lane in 0..I::Row::LANES {
         block.step_count[lane] += u64::from(block.running[0][lane].f64() == 1.0);
     }
@@ -138,63 +136,4 @@ fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
         elastic::turn(isa, model, block, go);
     }
     equations::carry::<D, I>(isa, model, block, go);
-}
-
-#[inline(always)]
-fn all_finite<I: Isa>(isa: I, block: &Block<I::Row>) -> I::M {
-    let mut sum = isa.splat(0.0);
-    for row in block.next.iter() {
-        sum = sum + isa.load(row).abs();
-    }
-    // A speed beyond 1e6 m/s is on its way to infinity.
-    sum.lt(isa.splat(1e6))
-}
-
-#[inline(always)]
-fn intact<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
-    let mut intact = isa.splat(0.0).eq(isa.splat(0.0));
-    for spring in &model.stretch {
-        let length = isa.load(&block.length[spring.element]);
-        intact = intact
-            & length.lt(isa.splat(3.0 * spring.rest_m))
-            & length.gt(isa.splat(0.1 * spring.rest_m));
-    }
-    intact
-}
-
-#[inline(always)]
-fn above_ground<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
-    let mut lowest = isa.splat(0.0);
-    if model.program.ground.is_some() {
-        for node in 0..model.nodes() {
-            lowest = lowest.min(isa.load(&block.node[D * node + 1]));
-        }
-    }
-    lowest.ge(isa.splat(-model.thickness_m))
-}
-
-#[inline(always)]
-fn mark_broken<I: Isa>(
-    isa: I,
-    block: &mut Block<I::Row>,
-    running: I::M,
-    [finite, intact, above]: [I::M; 3],
-) {
-    let code = |status: Status| isa.splat(f64::from(status as u8));
-    let reason = I::F::select(above, code(Status::Running), code(Status::Sunk));
-    let reason = I::F::select(intact, reason, code(Status::Overstretched));
-    let reason = I::F::select(finite, reason, code(Status::NotFinite));
-    let mut row = I::Row::zeros();
-    isa.store(I::F::select(running, reason, code(Status::Running)), &mut row);
-    for lane in 0..I::Row::LANES {
-        let code = row[lane].f64();
-        if code != 0.0 {
-            block.status[lane] = Status::from_code(code as u8).unwrap_or(Status::NotFinite);
-            block.running[0][lane] = Number::of(0.0);
-            // The impulses of the step that failed may be anything, NaN included.
-            for rows in [&mut block.mode, &mut block.normal, &mut block.pad] {
-                rows.iter_mut().for_each(|row| row[lane] = Number::of(0.0));
-            }
-        }
-    }
 }

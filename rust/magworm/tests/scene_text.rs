@@ -130,7 +130,7 @@ fn unknown_fields_are_refused_everywhere() {
         (
             "[solver]",
             "solver",
-            "integrator, step_s, magnet_model, quadrature_order, wrench_interval, contact_iterations, curvature, precision",
+            "integrator, step_s, magnet_model, quadrature_order, wrench_interval, contact_iterations, fastest_m_s, curvature, precision",
         ),
     ] {
         let sentence = format!("{table}.colour is not a field of a scene; {table} has: {known}");

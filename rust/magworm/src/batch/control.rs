@@ -88,7 +88,10 @@ where
     advance_block(model, block, model.steps_per_control, interruption)?;
     let width = observe::size(model);
     for lane in 0..count {
-        rows.progress_m[lane] = progress_m(block.robot_before[lane], block.robot_pose(model, lane));
+        let (before, after) = (block.robot_before[lane], block.robot_pose(model, lane));
+        // A robot that broke made no progress in this step.
+        let runs = block.status[lane] == Status::Running;
+        rows.progress_m[lane] = if runs { progress_m(before, after) } else { 0.0 };
         rows.status[lane] = block.status[lane] as u8;
     }
     for (lane, row) in rows.observation.chunks_mut(width).enumerate() {

@@ -11,6 +11,15 @@ use crate::state::Block;
 /// frames of the elements.
 #[inline(always)]
 pub fn update<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    place::<D, I>(isa, model, block);
+    if D == 3 {
+        frames::transport(isa, model, block);
+    }
+}
+
+/// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date; leaves the state as it is.
+#[inline(always)]
+pub fn place<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     if D == 2 {
         angles(isa, model, block);
     } else {
@@ -18,9 +27,6 @@ pub fn update<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I
     }
     nodes::<D, I>(isa, model, block);
     elements::<D, I>(isa, model, block);
-    if D == 3 {
-        frames::transport(isa, model, block);
-    }
 }
 
 /// Axis of each magnet in the plane, from its angle.

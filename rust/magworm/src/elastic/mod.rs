@@ -19,7 +19,7 @@ pub mod vector;
 
 pub use bend::assemble as bend;
 pub use frames::{axes, turn};
-pub use kinematics::update as kinematics;
+pub use kinematics::{place, update as kinematics};
 pub use stretch::assemble as stretch;
 pub use twist::assemble as bend_and_twist;
 pub use vector::cross;

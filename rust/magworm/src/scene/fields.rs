@@ -269,6 +269,7 @@ static SOLVER: Table = Table {
         optional("quadrature_order", whole(1, 10)),
         optional("wrench_interval", whole(1, MOST_STEPS_OF_A_WRENCH)),
         optional("contact_iterations", whole(1, 1000)),
+        optional("fastest_m_s", real("m/s", 1e-3, 1e4)),
         optional("curvature", Kind::Choice(&["angle", "tangent"])),
         optional("precision", Kind::Choice(&["double", "single"])),
     ],

@@ -20,6 +20,9 @@ pub struct Solver {
     pub wrench_interval: usize,
     /// Most trials of the contact solve per step, shared out among its iterations, see [`crate::contact`].
     pub contact_iterations: usize,
+    /// Greatest speed of a node or magnet at the end of a control step [m/s]: a robot that is faster breaks. It tells robots
+    /// apart that a drive magnet threw away, as a point dipole does to a magnet that falls through it.
+    pub fastest_m_s: f64,
     /// Discrete curvature of the rod.
     pub curvature: Curvature,
     /// Precision of numbers in a step.
@@ -35,6 +38,7 @@ impl Default for Solver {
             quadrature_order: 3,
             wrench_interval: 1,
             contact_iterations: 120,
+            fastest_m_s: 100.0,
             curvature: Curvature::Angle,
             precision: Precision::Double,
         }

@@ -20,6 +20,8 @@ pub enum Status {
     Overstretched = 2,
     /// A node sank into the ground by more than the body's thickness.
     Sunk = 3,
+    /// A node or magnet ended a control step faster than the scene's `solver.fastest_m_s`.
+    TooFast = 4,
     /// The lane belongs to no environment: the batch is not a multiple of the lanes.
     Unused = 255,
 }
@@ -27,9 +29,16 @@ pub enum Status {
 impl Status {
     /// The status of a code; none for codes that no status has.
     pub fn from_code(code: u8) -> Option<Self> {
-        [Self::Running, Self::NotFinite, Self::Overstretched, Self::Sunk, Self::Unused]
-            .into_iter()
-            .find(|status| *status as u8 == code)
+        [
+            Self::Running,
+            Self::NotFinite,
+            Self::Overstretched,
+            Self::Sunk,
+            Self::TooFast,
+            Self::Unused,
+        ]
+        .into_iter()
+        .find(|status| *status as u8 == code)
     }
 
     /// One sentence about it.
@@ -41,6 +50,7 @@ impl Status {
                 "an element was stretched beyond 3 times or squeezed below 0.1 of its rest length"
             }
             Self::Sunk => "a node sank into the ground by more than the body's thickness",
+            Self::TooFast => "a node or magnet moved faster than solver.fastest_m_s",
             Self::Unused => "unused lane",
         }
     }

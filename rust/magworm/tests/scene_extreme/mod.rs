@@ -161,6 +161,7 @@ fn solver(dice: &mut Dice) -> Solver {
         quadrature_order: dice.whole(1, 3),
         wrench_interval: 1,
         contact_iterations: 120,
+        fastest_m_s: 100.0,
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
         precision: if integrator == Integrator::Explicit || step_s < 5e-4 {
             Precision::Double

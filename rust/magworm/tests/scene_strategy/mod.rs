@@ -162,6 +162,7 @@ fn solver(dice: &mut Dice) -> Solver {
         quadrature_order: dice.whole(1, 10),
         wrench_interval: 1,
         contact_iterations: dice.whole(1, 1000),
+        fastest_m_s: dice.decades(1e-3, 1e4),
         curvature: dice.one_of(&[Curvature::Angle, Curvature::Tangent]),
         precision: if integrator == Integrator::Explicit || step_s < 5e-4 {
             Precision::Double
