@@ -1,5 +1,6 @@
 """Random numbers that depend on (seed, episode, place in the sequence) alone, as the simulator's do."""
 
+import json
 from collections.abc import Sequence
 
 import numpy as np
@@ -51,6 +52,20 @@ def next_episodes(
         elif following[i] == 0:
             seeds[i] = generator.integers(SEED_LIMIT)
     return following
+
+
+def generator_of(text: bytes) -> np.random.Generator:
+    """The generator whose state stands in JSON, as Gymnasium's are: PCG64.
+
+    Raises:
+        ValueError: The text holds something else.
+    """
+    generator = np.random.PCG64()
+    try:
+        generator.state = json.loads(text)
+    except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
+        raise ValueError("random in the state is no state of NumPy's PCG64") from error
+    return np.random.Generator(generator)
 
 
 def _mix(z: NDArray[np.uint64]) -> NDArray[np.uint64]:

@@ -16,15 +16,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym import snapshot
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
+from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
 from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.drawing import Drawing, Frame
-from magworm_gym.draws import next_episodes, uniform
+from magworm_gym.draws import generator_of, next_episodes, uniform
 from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import judged, step_infos
 from magworm_gym.reset_options import equipped, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import load_scene
+from magworm_gym.snapshot import COUNT, FINITE, Limits
 from magworm_gym.spaces import AnyPart, box, layout
 from magworm_gym.tasks import Task, task_named
 
@@ -291,15 +292,17 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         Raises:
             ValueError: The bytes are no such state; nothing is changed then.
         """
-        fields = snapshot.unpack(state, like={**self._counted(), **self._simulated()})
-        if fields["autoreset"].item() != self._autoreset.value:
+        fields = snapshot.unpack(state, {**self._counted(), **self._simulated()}, self._limits())
+        autoreset = fields["autoreset"].tobytes().decode(errors="replace")
+        if autoreset != self._autoreset.value:
             raise ValueError(
-                f"the state is of autoreset mode {fields['autoreset'].item()!r}; "
+                f"the state is of autoreset mode {autoreset!r}; "
                 f"this environment has {self._autoreset.value!r}"
             )
-        random = json.loads(fields["random"].item())
+        random = generator_of(fields["random"].tobytes())
         self._batch.set_state(fields["batch"].tobytes())
-        self.np_random.bit_generator.state = random
+        # Nothing fails from here on.
+        self.np_random.bit_generator.state = random.bit_generator.state
         for name in COUNTED:
             setattr(self, name, fields[name])
         self._task.state = {name: fields[f"{TASK}{name}"] for name in self._task.state}
@@ -323,10 +326,22 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         return {**{name: getattr(self, name) for name in COUNTED}, **task}
 
     def _simulated(self) -> dict[str, NDArray[Any]]:
+        random = json.dumps(self.np_random.bit_generator.state)
         return {
             "batch": np.frombuffer(self._batch.get_state(), np.uint8),
-            "random": np.array(json.dumps(self.np_random.bit_generator.state)),
-            "autoreset": np.array(self._autoreset.value),
+            "random": np.frombuffer(random.encode(), np.uint8),
+            "autoreset": np.frombuffer(self._autoreset.value.encode(), np.uint8),
+        }
+
+    def _limits(self) -> dict[str, Limits]:
+        """What numbers of a state may be."""
+        option = self._task.goal_option
+        return {
+            "_seeds": Limits(0, SEED_LIMIT - 1),
+            "_episodes": Limits(-1, COUNT.high),
+            "_elapsed_steps": COUNT,
+            "_starts": Limits(-10.0, 10.0, missing=True),
+            "_goals": Limits(-option.limit, option.limit, missing=True) if option else FINITE,
         }
 
     def _start_episodes(
