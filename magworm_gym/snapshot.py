@@ -60,8 +60,8 @@ def unpack(state: bytes, like: Mapping[str, Array], limits: Mapping[str, Limits]
     for (name, kind, shape), array in zip(found, like.values(), strict=True):
         raw = array.dtype == np.uint8 and len(shape) == 1
         if kind != array.dtype.str or not (raw or shape == list(array.shape)):
-            wanted = f"{array.dtype.str} of shape {list(array.shape)}"
-            raise ValueError(f"the state has {name} as {kind} of shape {shape}; allowed: {wanted}")
+            wanted = f"{array.dtype.str!r} of shape {list(array.shape)}"
+            raise ValueError(f"the state has {name} as {kind!r} of shape {shape}; allowed: {wanted}")
         size = array.dtype.itemsize * int(np.prod(shape, dtype=object))
         if size > len(body):
             raise ValueError(f"the state is cut short in {name}")
