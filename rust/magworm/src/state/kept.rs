@@ -1,16 +1,15 @@
-//! The state of a block before a call that may be stopped, to be put back where it was.
+//! The state of a block as it was before a call that may be stopped.
 
-use super::block::{Block, Counters, Status};
-use crate::interruption::Interruption;
+use super::status::{Counters, Status};
 use crate::lanes::Row;
 
 /// A state, or none: then it is empty.
 #[derive(Clone, Debug)]
 pub struct Kept<R: Row> {
-    rows: Vec<R>,
-    step_count: Vec<u64>,
-    status: Vec<Status>,
-    counters: Counters,
+    pub(super) rows: Vec<R>,
+    pub(super) step_count: Vec<u64>,
+    pub(super) status: Vec<Status>,
+    pub(super) counters: Counters,
 }
 
 impl<R: Row> Default for Kept<R> {
@@ -21,54 +20,5 @@ impl<R: Row> Default for Kept<R> {
             status: Vec::new(),
             counters: Counters::default(),
         }
-    }
-}
-
-impl<R: Row> Block<R> {
-    /// Keeps the present state.
-    fn keep(&mut self) {
-        let mut kept = std::mem::take(&mut self.kept);
-        let rows = self.state_rows();
-        kept.rows.reserve_exact(rows.iter().map(|rows| rows.len()).sum());
-        rows.iter().for_each(|rows| kept.rows.extend_from_slice(rows));
-        kept.step_count.extend_from_slice(&self.step_count);
-        kept.status.extend_from_slice(&self.status);
-        kept.counters = self.counters;
-        self.kept = kept;
-    }
-
-    /// Whether work on the block begins: not where the call is stopped already. Where it may be stopped on the way,
-    /// the state is kept.
-    pub(crate) fn begin(&mut self, interruption: &Interruption<'_>) -> bool {
-        if interruption.is_possible() {
-            self.keep();
-        }
-        !interruption.stops()
-    }
-
-    /// Goes on without what was kept; its memory stays.
-    pub(crate) fn forget(&mut self) {
-        self.kept.rows.clear();
-        self.kept.step_count.clear();
-        self.kept.status.clear();
-    }
-
-    /// Goes back to what was kept; says whether anything was. What is derived from the state is to be derived anew.
-    pub(crate) fn put_back(&mut self) -> bool {
-        let kept = std::mem::take(&mut self.kept);
-        let anything = !kept.status.is_empty();
-        if anything {
-            let mut rest = &kept.rows[..];
-            for rows in self.state_rows_mut() {
-                let (these, others) = rest.split_at(rows.len());
-                rows.copy_from_slice(these);
-                rest = others;
-            }
-            self.step_count.copy_from_slice(&kept.step_count);
-            self.status.copy_from_slice(&kept.status);
-            self.counters = kept.counters;
-        }
-        self.kept = kept;
-        anything
     }
 }

@@ -5,7 +5,10 @@ mod kept;
 mod pose;
 mod rows;
 mod size;
+mod status;
+mod stopped;
 
-pub use block::{Block, Counters, Status, Workspace};
+pub use block::{Block, Workspace};
 pub use pose::{Pose, Twist};
 pub use rows::Rows;
+pub use status::{Counters, Status};
