@@ -80,6 +80,7 @@ SECTIONS = (
             "space_helix": "closed form",
             "space_buckling": "published critical loads",
             "space_momentum_in_free_flight": "conservation law",
+            "space_momenta_of_an_asymmetric_body": "conservation law",
             "space_energy": "conservation law",
             "space_tumbling_of_a_magnet": "Euler's equations, solved in the test",
             "space_frames_do_not_drift": "frames integrated in the test",

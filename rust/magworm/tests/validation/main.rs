@@ -27,6 +27,7 @@ mod magnet_wrench;
 mod oblique;
 mod odd_bodies;
 mod off_centre;
+mod space_asymmetric;
 mod space_bending;
 mod space_buckling;
 mod space_crawl;

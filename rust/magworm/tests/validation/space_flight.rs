@@ -49,7 +49,7 @@ pub fn flying(integrator: &str, step: &str, damping: &str) -> World {
 /// Changes of momentum and angular momentum over `steps`, as parts of what they were. The last is that of the angular
 /// momentum less Σ ∫ I θ̇ dt: an element's spin θ̇ keeps its value as the tangent turns, as of a rod without rotary
 /// inertia across it.
-fn changes(world: &mut World, steps: u32) -> [f64; 3] {
+pub fn changes(world: &mut World, steps: u32) -> [f64; 3] {
     let (linear, angular) = world.momenta_in_space();
     let twists = world.model.coordinates.twists.clone();
     let mut carried = Vector::zeros();
