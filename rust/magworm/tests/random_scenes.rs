@@ -102,9 +102,18 @@ fn unequal_batch(model: &Arc<Model>, extremes: &[f64], seed: u64, lanes: LaneCho
 }
 
 fn run(model: Model, extremes: &[f64], seed: u64) -> Result<(), TestCaseError> {
+    run_for(CONTROL_STEPS, model, extremes, seed)
+}
+
+fn run_for(
+    control_steps: u64,
+    model: Model,
+    extremes: &[f64],
+    seed: u64,
+) -> Result<(), TestCaseError> {
     let model = Arc::new(model);
-    let wide = run_in(&model, extremes, seed, LaneChoice::Wide)?;
-    let scalar = run_in(&model, extremes, seed, LaneChoice::Scalar)?;
+    let wide = run_in(&model, extremes, seed, LaneChoice::Wide, control_steps)?;
+    let scalar = run_in(&model, extremes, seed, LaneChoice::Scalar, control_steps)?;
     let differs = wide.iter().zip(&scalar).position(|(wide, scalar)| wide != scalar);
     prop_assert!(differs.is_none(), "number {differs:?} differs between scalar and wide lanes");
     prop_assert_eq!(wide.len(), scalar.len());
@@ -117,11 +126,12 @@ fn run_in(
     extremes: &[f64],
     seed: u64,
     lanes: LaneChoice,
+    control_steps: u64,
 ) -> Result<Vec<u64>, TestCaseError> {
     let mut batch = unequal_batch(model, extremes, seed, lanes);
     let mut draws = Draws::new(seed, 2);
     let mut bits = vec![];
-    for _ in 0..CONTROL_STEPS {
+    for _ in 0..control_steps {
         let before: Vec<_> =
             (0..ENVIRONMENTS).map(|e| (batch.status(e), numbers(&batch, e))).collect();
         let actions = magworm::observe::action_size(model) * ENVIRONMENTS;
@@ -144,8 +154,18 @@ fn run_in(
 }
 
 /// Few solver steps per control step, whatever the scene asks for: the time goes into more scenes.
-fn short(mut scene: Scene) -> Scene {
+fn short(scene: Scene) -> Scene {
     let solver_steps = (scene.control.step_s / scene.solver.step_s).round().min(8.0);
+    in_control_steps_of(solver_steps, scene)
+}
+
+/// A scene to be run for half a second or 2,000 solver steps, whichever is less, and its control steps until then.
+fn long(scene: Scene) -> (Scene, u64) {
+    let solver_steps = (0.5 / scene.solver.step_s).clamp(20.0, 2000.0);
+    (in_control_steps_of(20.0, scene), (solver_steps / 20.0) as u64)
+}
+
+fn in_control_steps_of(solver_steps: f64, mut scene: Scene) -> Scene {
     let control_steps = (scene.control.episode_s / scene.control.step_s).round();
     scene.control.step_s = solver_steps * scene.solver.step_s;
     scene.control.episode_s = control_steps * scene.control.step_s;
@@ -225,6 +245,20 @@ proptest! {
         let model = Model::compile(&scene);
         prop_assert!(model.is_ok(), "{}", model.unwrap_err());
         run(model.expect("a model"), &[1.0; Model::PARAMETERS.len()], seed)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    /// What goes wrong slowly: growing oscillations, robots that sink or drift, rows that are restored a little wrongly.
+    #[test]
+    fn random_scenes_run_long(
+        (scene, control_steps) in prop_oneof![scene(16), extreme_scene(20)].prop_map(long),
+        seed: u64,
+    ) {
+        let model = Model::compile(&scene).expect("a valid scene");
+        run_for(control_steps, model, &[1.0; Model::PARAMETERS.len()], seed)?;
     }
 }
 
