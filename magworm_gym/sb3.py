@@ -176,8 +176,9 @@ class MagWormVecEnv(VecEnv):
     def set_state(self, state: bytes) -> None:
         """Goes on from such a state. Raises ValueError, changing nothing, for one of another scene or N."""
         fields = snapshot.unpack(state, self._fields(), {"lengths": snapshot.COUNT})
-        self.worms.set_state(fields["worms"].tobytes())
-        self._returns, self._lengths = fields["returns"], fields["lengths"]
+        with Bookkeeping():
+            self.worms.set_state(fields["worms"].tobytes())
+            self._returns, self._lengths = fields["returns"], fields["lengths"]
 
     def _fields(self) -> dict[str, NDArray[Any]]:
         worms = np.frombuffer(self.worms.get_state(), np.uint8)

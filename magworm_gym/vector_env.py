@@ -300,14 +300,15 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
                 f"this environment has {self._autoreset.value!r}"
             )
         random = generator_of(fields["random"].tobytes())
-        self._batch.set_state(fields["batch"].tobytes())
-        # Nothing fails from here on.
-        self.np_random.bit_generator.state = random.bit_generator.state
-        for name in COUNTED:
-            setattr(self, name, fields[name])
-        self._task.state = {name: fields[f"{TASK}{name}"] for name in self._task.state}
-        if self._drawing is not None:
-            self._drawing.forget(np.ones(self.num_envs, np.bool_))
+        with Bookkeeping() as books:
+            self._batch.set_state(fields["batch"].tobytes())
+            books.begin()  # nothing fails from here on
+            self.np_random.bit_generator.state = random.bit_generator.state
+            for name in COUNTED:
+                setattr(self, name, fields[name])
+            self._task.state = {name: fields[f"{TASK}{name}"] for name in self._task.state}
+            if self._drawing is not None:
+                self._drawing.forget(np.ones(self.num_envs, np.bool_))
 
     def close_extras(self, **_: Any) -> None:
         """Closes the window."""
