@@ -81,8 +81,9 @@ pub mod internals {
 
     pub mod magnetic {
         pub use crate::magnetic::{
-            Cuboid, GaussLegendre, MAX_ORDER, MU_0, Magnet, Overlap, PlanarDipole, PlanarPair,
-            Wrench, dipole_wrench, field_t, wrench,
+            Cuboid, GaussLegendre, MAX_ORDER, MU_0, Magnet, ObliquePair, Overlap, PlanarDipole,
+            PlanarPair, SpatialPair, Wrench, dipole_wrench, field_t, planar_reaction,
+            spatial_reaction, wrench,
         };
     }
 

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: `unit_field` |
 //! | `planar` | wrench between two cuboids in the simulator's plane, in lanes: [`PlanarPair`] |
+//! | `oblique` | the same between magnets of any direction in the plane: [`ObliquePair`] |
+//! | `reaction` | what the body does to the drive: [`planar_reaction`], [`spatial_reaction`] |
 //! | `spatial` | wrench between two cuboids in space, in lanes: [`SpatialPair`] |
 //! | `wrench` | the same at any distance: [`wrench()`]; with `near`, `far` and `separation` |
 //! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`], [`SpatialDipole`] |
@@ -27,6 +29,7 @@ mod near;
 mod oblique;
 mod planar;
 mod quadrature;
+mod reaction;
 mod separation;
 mod spatial;
 #[cfg(test)]
@@ -39,6 +42,7 @@ pub use dipole::{PlanarDipole, SpatialDipole, dipole_wrench};
 pub use oblique::ObliquePair;
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
+pub use reaction::{planar_reaction, spatial_reaction};
 pub use spatial::SpatialPair;
 pub use uniform::UniformField;
 pub use wrench::{Overlap, wrench};

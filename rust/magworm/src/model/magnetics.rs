@@ -83,18 +83,19 @@ impl PairModel {
     fn new(scene: &Scene, drive: &Drive, magnet: &MeshMagnet) -> Self {
         let source =
             Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
-        let body = magnet.cuboid();
-        let (direction, order) = (magnet.direction, scene.solver.quadrature_order);
+        let (body, order) = (magnet.cuboid(), scene.solver.quadrature_order);
+        let units = || [unit(source, Direction::Up), unit(body, magnet.direction)];
         match (scene.solver.magnet_model, scene.dimensions) {
-            (MagnetModel::Cuboid, 2) => match direction {
+            (MagnetModel::Cuboid, 2) => match magnet.direction {
                 Direction::Up => Self::Cuboid(PlanarPair::new(source, body, order)),
-                Direction::Oblique(vector) => {
-                    Self::ObliqueCuboid(ObliquePair::new(source, body, vector, order))
+                Direction::Oblique(_) => {
+                    let [source, body] = units();
+                    Self::ObliqueCuboid(ObliquePair::new(&source, &body, order))
                 }
             },
             (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(source, body)),
             (MagnetModel::Cuboid, _) => {
-                let (source, body) = (unit(source, Direction::Up), unit(body, direction));
+                let [source, body] = units();
                 Self::SpatialCuboid(SpatialPair::new(&source, &body, order))
             }
             (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(source, body)),
