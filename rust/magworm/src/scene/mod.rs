@@ -38,6 +38,7 @@ pub use body::{
 pub use direction::Direction;
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
+#[doc(hidden)] // for the project's own tests
 pub use mesh::{Element, Mesh, MeshMagnet, Sole};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
