@@ -36,7 +36,7 @@ pub fn advance<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
         speed_factor: &factors[Parameter::DriveSpeed as usize],
         running: isa.load(&running[0]).eq(isa.splat(1.0)),
     };
-    let rows = ActuatorRows { state: &mut **stage, target: &mut **target, action: &mut **action };
+    let rows = ActuatorRows { state: stage, target, action };
     for (actuator, rows) in each(&model.program.actuators, rows) {
         actuator.advance::<D, I>(isa, rows, clock);
     }
