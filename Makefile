@@ -131,8 +131,9 @@ lint-python: install-test  ## ruff, mypy, stubtest
 test-rust: need-cargo  ## cargo test
 	cargo test
 
-test-nightly: need-cargo  ## 100,000 random extreme scenes
+test-nightly: need-cargo  ## 100,000 random extreme scenes, ten million steps in single precision
 	PROPTEST_CASES=100000 cargo test --test random_scenes extreme
+	cargo test --test long_runs -- --ignored
 
 test-docs: need-cargo install-test  ## cargo doc, tables of README.md
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm
