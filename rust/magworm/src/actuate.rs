@@ -2,7 +2,7 @@
 
 use crate::actuator::{ActuatorRows, Clock, each};
 use crate::draws::Draws;
-use crate::lanes::{Isa, Real, Row};
+use crate::lanes::{Dim, Isa, Real, Row};
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
@@ -28,7 +28,7 @@ pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut act
 
 /// Moves the actuators to where they are at the end of a step.
 #[inline(always)]
-pub fn advance<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn advance<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Block { stage, target, action, step_count, factors, running, .. } = block;
     let clock = Clock {
         steps: step_count,

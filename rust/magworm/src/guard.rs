@@ -5,7 +5,7 @@
 //! none is rewarded for a control step that it ended broken.
 
 use crate::elastic;
-use crate::lanes::{Isa, Mask, Number, Real, Row};
+use crate::lanes::{Dim, Isa, Mask, Number, Real, Row};
 use crate::model::Model;
 use crate::state::{Block, Status};
 
@@ -17,7 +17,7 @@ const SHORTEST: f64 = 0.1;
 
 /// The running lanes whose step may be committed; the others are marked as broken and keep their last sound state.
 #[inline(always)]
-pub fn may_go_on<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) -> I::M {
+pub fn may_go_on<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) -> I::M {
     let finite = next_is_finite(isa, block);
     let intact = is_intact(isa, model, block);
     let above = is_above_ground::<D, I>(isa, model, block);
@@ -30,7 +30,7 @@ pub fn may_go_on<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Bloc
 
 /// Marks the lanes that are no longer sound where they are now.
 #[inline(always)]
-pub fn stop_unsound<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn stop_unsound<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     elastic::place::<D, I>(isa, model, block);
     let intact = is_intact(isa, model, block);
     let above = is_above_ground::<D, I>(isa, model, block);
@@ -64,11 +64,11 @@ fn is_intact<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
 }
 
 #[inline(always)]
-fn is_above_ground<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
+fn is_above_ground<D: Dim, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
     let mut lowest = isa.splat(0.0);
-    if model.program.ground.is_some() {
+    if model.program.contact.is_some() {
         for node in 0..model.nodes() {
-            lowest = lowest.min(isa.load(&block.node[D * node + 1]));
+            lowest = lowest.min(isa.load(&block.node[D::AXES * node + 1]));
         }
     }
     lowest.ge(isa.splat(-model.thickness_m))
@@ -76,9 +76,9 @@ fn is_above_ground<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<
 
 /// Whether no free node and no magnet moves faster than the scene allows.
 #[inline(always)]
-fn is_slow<const D: usize, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
+fn is_slow<D: Dim, I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> I::M {
     let mut fastest = isa.splat(0.0);
-    for translations in model.translations.chunks_exact(D) {
+    for translations in model.translations.chunks_exact(D::AXES) {
         let mut square = isa.splat(0.0);
         for &(dof, _) in translations {
             let speed = isa.load(&block.v[dof]);
@@ -129,7 +129,12 @@ fn stop<R: Row>(block: &mut Block<R>, codes: R) {
 
 /// What a step writes into the state before it is known to be sound may be anything, NaN included.
 fn clean<R: Row>(block: &mut Block<R>, lane: usize) {
-    for rows in [&mut block.mode, &mut block.normal, &mut block.pad, &mut block.wrench] {
+    for rows in [
+        &mut block.contact_mode,
+        &mut block.normal_impulse,
+        &mut block.tangential_spring,
+        &mut block.wrench,
+    ] {
         rows.iter_mut().for_each(|row| row[lane] = R::Number::default());
     }
     for row in block.twist.iter_mut().filter(|row| !row[lane].f64().is_finite()) {

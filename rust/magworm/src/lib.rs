@@ -56,10 +56,10 @@ pub use state::{Counters, Pose, Status, Twist};
 pub mod internals {
     pub use crate::actuate::command;
     pub use crate::batch::Pool;
-    pub use crate::contact::Mode;
+    pub use crate::contact::ContactMode;
     pub use crate::draws::Draws;
     pub use crate::elastic::kinematics;
-    pub use crate::model::{Allowed, Anchor, PairModel, Phase, ROWS, Role, RowGroup, Sole, Wave};
+    pub use crate::model::{Allowed, Anchor, Frame, PairModel, Phase, ROWS, Role, RowGroup, Wave};
     pub use crate::record::{Recording, Watch, record};
     pub use crate::reset::{reset, scene_start};
     pub use crate::state::{Block, Rows};
@@ -71,8 +71,8 @@ pub mod internals {
 
     pub mod lanes {
         pub use crate::lanes::{
-            InstructionSet, Isa, Mask, Number, Real, Row, Scalar, WIDE, WIDE_SINGLE, WideTask,
-            run_wide, run_wide_on,
+            Dim, InstructionSet, Isa, Mask, Number, Plane, Real, Row, Scalar, Space, WIDE,
+            WIDE_SINGLE, WideTask, run_wide, run_wide_on,
         };
         pub mod math {
             pub use crate::lanes::math::{atan2, sin_cos};

@@ -119,7 +119,9 @@ fn put<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, laid: &impl Lai
         for axis in 0..axes {
             match *anchor {
                 Anchor::Free { dof } => block.q[dof + axis][lane] = R::Number::of(place[axis]),
-                Anchor::Fixed => block.held[axes * node + axis][lane] = R::Number::of(place[axis]),
+                Anchor::Fixed => {
+                    block.fixed_position[axes * node + axis][lane] = R::Number::of(place[axis])
+                }
                 Anchor::Rigid { .. } => {}
             }
         }

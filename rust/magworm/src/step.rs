@@ -9,7 +9,7 @@ use crate::contact;
 use crate::elastic;
 use crate::equations;
 use crate::guard;
-use crate::lanes::{Isa, Number, Real, Row};
+use crate::lanes::{Dim, Isa, Number, Plane, Real, Row, Space};
 use crate::model::{Model, Phase};
 use crate::state::{Block, Status};
 
@@ -19,8 +19,8 @@ use crate::state::{Block, Status};
 pub fn advance<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     mark_running(block);
     match model.dimensions() {
-        2 => advance_in::<2, I>(isa, model, block, steps),
-        _ => advance_in::<3, I>(isa, model, block, steps),
+        2 => advance_in::<Plane, I>(isa, model, block, steps),
+        _ => advance_in::<Space, I>(isa, model, block, steps),
     }
 }
 
@@ -32,12 +32,7 @@ fn mark_running<R: Row>(block: &mut Block<R>) {
 }
 
 #[inline(always)]
-fn advance_in<const D: usize, I: Isa>(
-    isa: I,
-    model: &Model,
-    block: &mut Block<I::Row>,
-    steps: u32,
-) {
+fn advance_in<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     for _ in 0..steps {
         step::<D, I>(isa, model, block);
     }
@@ -48,7 +43,7 @@ fn advance_in<const D: usize, I: Isa>(
 }
 
 /// One solver step in D dimensions.
-fn step<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+fn step<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for &phase in &model.phases {
         run::<D, I>(isa, model, block, phase);
     }
@@ -59,14 +54,14 @@ fn step<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>
 pub fn run_phase<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     mark_running(block);
     match model.dimensions() {
-        2 => run::<2, I>(isa, model, block, phase),
-        _ => run::<3, I>(isa, model, block, phase),
+        2 => run::<Plane, I>(isa, model, block, phase),
+        _ => run::<Space, I>(isa, model, block, phase),
     }
 }
 
 /// One phase in D dimensions, compiled for the instruction set on its own: as one function all phases would take a
 /// compiler minutes. Contact compiles its parts one by one.
-fn run<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
+fn run<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     match phase {
         Phase::Kinematics => isa.vectorize(
             #[inline(always)]
@@ -117,7 +112,7 @@ fn solve<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
 /// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
-fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+fn commit<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let go = guard::may_go_on::<D, I>(isa, model, block);
     for lane in 0..I::Row::LANES {
         block.step_count[lane] += u64::from(block.running[0][lane].f64() == 1.0);
@@ -132,8 +127,8 @@ fn commit<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
         isa.store(I::F::select(go, next, v), &mut speeds[dof]);
         isa.store(I::F::select(go, q + next * model.step_s, q), &mut places[dof]);
     }
-    if D == 3 {
-        elastic::turn(isa, model, block, go);
+    if D::AXES == 3 {
+        elastic::rotate_frames(isa, model, block, go);
     }
     equations::carry::<D, I>(isa, model, block, go);
 }

@@ -1,6 +1,6 @@
 //! Bodies that start bent: the strains that were asked for, the places that follow, and nothing new where they are straight.
 
-use magworm::internals::lanes::Scalar;
+use magworm::internals::lanes::{Plane, Scalar, Space};
 use magworm::internals::{Block, Draws, advance, kinematics, reset, scene_start};
 use magworm::scene::Scene;
 use magworm::{Model, StartPose, Status};
@@ -47,8 +47,8 @@ impl World {
     fn refresh(&mut self) {
         self.block.running[0][0] = 1.0;
         match self.model.dimensions() {
-            2 => kinematics::<2, _>(Scalar, &self.model, &mut self.block),
-            _ => kinematics::<3, _>(Scalar, &self.model, &mut self.block),
+            2 => kinematics::<Plane, _>(Scalar, &self.model, &mut self.block),
+            _ => kinematics::<Space, _>(Scalar, &self.model, &mut self.block),
         }
     }
 

@@ -5,7 +5,7 @@ mod scenes;
 
 use bits_world::{Record, World, run};
 use magworm::LaneChoice::{Scalar, Wide};
-use magworm::internals::Mode;
+use magworm::internals::ContactMode;
 use magworm::{LaneChoice, Model, Status};
 use scenes::{SCENES, model};
 use std::sync::Arc;
@@ -98,11 +98,11 @@ fn robots_in_space_step_stick_and_slide_in_every_direction() {
             for contact in 0..model.contacts.len() {
                 let [mode, _, x, z] = world.batch.view(place, |view| view.contact(contact))[..]
                 else {
-                    panic!("the pad of a contact in space holds two impulses")
+                    panic!("the tangential spring of a contact in space holds two impulses")
                 };
-                if mode == Mode::OPEN {
+                if mode == ContactMode::Open.code() {
                     open += 1;
-                } else if mode == Mode::STICK {
+                } else if mode == ContactMode::Stick.code() {
                     stuck += 1;
                 } else {
                     let turns = z.atan2(x) / std::f64::consts::TAU + 1.0;

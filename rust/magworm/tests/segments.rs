@@ -88,8 +88,8 @@ fn a_magnet_moves_within_its_foot_and_the_foot_stays() {
         let mesh = Model::compile(&scene).expect("a model").mesh;
         let magnet = mesh.magnets[1];
         let middle_m = 0.5 * (mesh.arc_m[magnet.element] + mesh.arc_m[magnet.element + 1]);
-        let places = mesh.soles.iter().filter_map(|sole| match *sole {
-            magworm::internals::Sole::Foot { body: 1, along_m, .. } => Some(middle_m + along_m),
+        let places = mesh.contact_points.iter().filter_map(|point| match point.frame {
+            magworm::internals::Frame::Body(1) => Some(middle_m + point.place_m[0]),
             _ => None,
         });
         places.collect::<Vec<_>>()

@@ -15,7 +15,7 @@ pub use rows::{ActuatorRows, Clock, Sizes, each, states};
 pub use stage::Stage;
 
 use crate::draws::Draws;
-use crate::lanes::{Isa, Row};
+use crate::lanes::{Dim, Isa, Row};
 use crate::scene::Scene;
 use crate::specification::{Observation, Outlook, Scales, Specification};
 
@@ -140,7 +140,7 @@ impl Actuator {
 
     /// Moves it to where it is at the end of a step.
     #[inline(always)]
-    pub fn advance<const D: usize, I: Isa>(
+    pub fn advance<D: Dim, I: Isa>(
         &self,
         isa: I,
         rows: ActuatorRows<'_, I::Row>,

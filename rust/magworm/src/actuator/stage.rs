@@ -5,7 +5,7 @@ use super::path::{Limits, Path};
 use super::rows::{ActuatorRows, Clock, Sizes};
 use crate::draws::Draws;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Number, Real, Row};
+use crate::lanes::{Dim, Isa, Number, Real, Row};
 use crate::scene::{Arrangement, Drive};
 use crate::specification::{Observation, Outlook, Scales, Specification};
 use nalgebra::Vector3;
@@ -270,13 +270,13 @@ impl Stage {
 
     /// See [`super::Actuator::advance`].
     #[inline(always)]
-    pub fn advance<const D: usize, I: Isa>(
+    pub fn advance<D: Dim, I: Isa>(
         &self,
         isa: I,
         rows: ActuatorRows<'_, I::Row>,
         clock: Clock<'_, I>,
     ) {
-        if D == 2 {
+        if D::AXES == 2 {
             self.advance_axes::<2, I>(isa, rows, clock);
         } else {
             self.advance_axes::<4, I>(isa, rows, clock);

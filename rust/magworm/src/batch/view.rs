@@ -74,10 +74,10 @@ impl<R: Row> LaneView for Block<R> {
     }
     fn contact(&self, model: &Model, contact: usize, lane: usize) -> Vec<f64> {
         let along = model.dimensions() - 1;
-        let pad = (0..along).map(|t| self.pad[along * contact + t][lane].f64());
-        [self.mode[contact][lane].f64(), self.normal[contact][lane].f64()]
+        let spring = (0..along).map(|t| self.tangential_spring[along * contact + t][lane].f64());
+        [self.contact_mode[contact][lane].f64(), self.normal_impulse[contact][lane].f64()]
             .into_iter()
-            .chain(pad)
+            .chain(spring)
             .collect()
     }
 }
@@ -161,7 +161,7 @@ impl View<'_> {
         write(&mut row);
         row
     }
-    /// Mode and normal impulse of a contact point in the last step, and what the spring of its pad holds along the
+    /// Mode and normal impulse of a contact point in the last step, and what its tangential spring holds along the
     /// ground [N·s].
     pub fn contact(&self, contact: usize) -> Vec<f64> {
         self.block.contact(self.model, contact, self.lane)

@@ -1,90 +1,83 @@
-//! Ground contact: fully inelastic, with static and dynamic friction that sticks exactly.
+//! Contact points that press on surfaces: compliant and dissipative along the normal, with Coulomb friction that sticks
+//! exactly.
 //!
-//! Each contact point has a gap φ, a normal velocity u_n and a velocity u_t along the ground (a number in the
-//! plane, a vector in space), all linear in the velocities at the end of the step. Under it lies a *pad*, a spring k
-//! with a damper k τ, so stiff that the whole body's weight presses it in by a thousandth of the body's
-//! thickness, and damped beyond rebound (τ at least Δt: so much a step damps of itself):
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | v | velocities at the end of the step | m/s, rad/s |
+//! | u = J v + û | velocity of a contact point with its bias û: u_n along the normal, u_t along the tangents | m/s |
+//! | φ | gap between point and surface at the start of the step | m |
+//! | λ | impulse of the surface on the point in the step | N·s |
+//! | λ⁰ | part of it that the tangential spring holds at the start of the step | N·s |
+//! | k, τ | stiffness and dissipation time of the contact spring, τ ≥ Δt | N/m, s |
+//! | w = k Δt τ | effective mass of the spring and its damper | kg |
+//! | μ_s, μ_d, v_d | static and dynamic friction, speed at which one gives way to the other | 1, 1, m/s |
+//! | F | friction bound: the largest tangential impulse | N·s |
+//!
+//! The equations of a step are those of a compliant contact with linear dissipation (Kelvin–Voigt), as in Drake's SAP
+//! (Castro, Permenter & Han 2022), and of Coulomb's cone read from an augmented impulse ξ (Alart & Curnier 1991):
 //!
 //! ```text
-//! λ_n = max(0, −w (u_n + φ/τ)),  w = k Δt τ       (above the ground φ/Δt: no damper yet)
-//! ξ_t = λ⁰ − w u_t,  λ_t = ξ_t cut to the length F(λ_n)
+//! A v = b + Jᵀ λ(u)
+//! λ_n = max(0, −w u_n),  û_n = φ/τ        (φ/Δt above the surface: the damper does not act there)
+//! ξ_t = λ⁰ − w u_t,      λ_t = ξ_t min(1, F/|ξ_t|)
+//! F   = μ λ_n + D_f Δt
 //! ```
 //!
-//! with λ⁰ the impulse of the pad's spring along the ground at the start. A point that sticks stays where it is, as
-//! the spring remembers. Friction follows the paper: a point that moves no faster than v_d holds up to
-//! F = μ_s λ_n + D_f Δt; beyond that it slides against F = μ_d λ_n + D_f Δt (Coulomb's cone, read from the
-//! augmented impulse ξ as Alart & Curnier 1991 do). One that passes v_d within a step has the mean coefficient.
+//! The spring is so stiff that the body's weight presses it in by a thousandth of the body's thickness, and damped beyond
+//! rebound. A point that sticks stays where it is, since its tangential spring remembers the place (the bristle of
+//! Cundall & Strack 1979). μ is the paper's: μ_s where the point is no faster than v_d at the start of the step, μ_d
+//! beyond; a point that passes v_d within a step has the mean of both ([`stick_slip`]).
 //!
-//! u is the mean velocity of the point over the step, which moves on an arc: to V + ω × r comes ½ Δt ω × (ω × r).
+//! u is the mean velocity of the point over the step, which moves on an arc: û holds ½ Δt ω × (ω × r).
 //!
-//! Rigid feet on rigid ground have no limit of short steps: with friction as here several motions may follow from
-//! one state, or none (Painlevé). On pads they have, and a solution is found much more often.
+//! With rigid contact and friction as high as here a step may have several solutions or none (Painlevé's paradox), and
+//! results do not converge with the step. With compliant contact they do, and a solution is found far more often.
 //!
-//! A step is one piecewise smooth equation in the velocities of the bodies, S v − s = Jᵀ λ(J v). [`solve`] solves it by
-//! Newton's iteration; friction that grows with the normal impulse makes its matrix unsymmetric. Soft
-//! unknowns are eliminated beforehand ([`crate::lanes::chain`]). A block of which no lane touches takes the first iterate.
+//! A step is one piecewise smooth equation in the velocities of the bodies, S v − s = Jᵀ λ(J v), where S and s follow from
+//! A and b by eliminating the soft unknowns ([`crate::lanes::chain`]). [`solve`] solves it by semismooth Newton's iteration.
 
-mod bounded;
-mod flight;
-mod guess;
+mod contact_free;
+mod contact_vector;
+mod detect;
+mod hessian;
+mod initial;
+mod jacobian;
 mod law;
+mod line_search;
 mod newton;
-mod onset;
-mod points;
-mod search;
+mod newton_system;
 mod solve;
-mod system;
+mod stick_slip;
+mod surface;
+mod tresca;
 
-use law::Ground;
-pub use points::detect;
+use contact_vector::ContactVector;
+pub use detect::detect;
 pub use solve::solve;
 
 use crate::lanes::{Isa, Real};
 use crate::state::Workspace;
 
-/// State of a contact point, kept as a number per lane.
-pub struct Mode;
-
-impl Mode {
-    /// Off the ground.
-    pub const OPEN: f64 = 0.0;
-    /// On the ground, at rest along it.
-    pub const STICK: f64 = 1.0;
-    /// On the ground, sliding.
-    pub const SLIDE: f64 = 2.0;
+/// State of a contact point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactMode {
+    /// Off the surface.
+    Open = 0,
+    /// On the surface, at rest along it.
+    Stick = 1,
+    /// On the surface, sliding.
+    Slide = 2,
 }
 
-/// Components of a point: upwards, then along x and in space along z; of an arm along x, y, z.
-type Vector<F> = [F; 3];
+impl ContactMode {
+    /// The number that stands for it in rows of lanes.
+    pub const fn code(self) -> f64 {
+        self as u8 as f64
+    }
+}
 
 /// Writes the lanes of a mask.
 #[inline(always)]
 fn store_where<I: Isa>(isa: I, mask: I::M, new: I::F, row: &mut I::Row) {
     isa.store(I::F::select(mask, new, isa.load(row)), row);
-}
-
-/// D rows as a vector.
-#[inline(always)]
-fn load_vector<const D: usize, I: Isa>(isa: I, rows: &[I::Row], c: usize) -> Vector<I::F> {
-    let rows = &rows[D * c..][..D];
-    let mut vector = [isa.splat(0.0); 3];
-    for k in 0..D {
-        vector[k] = isa.load(&rows[k]);
-    }
-    vector
-}
-
-/// Writes the lanes of a mask of D rows.
-#[inline(always)]
-fn store_vector<const D: usize, I: Isa>(
-    isa: I,
-    mask: I::M,
-    vector: &Vector<I::F>,
-    rows: &mut [I::Row],
-    c: usize,
-) {
-    let rows = &mut rows[D * c..][..D];
-    for k in 0..D {
-        store_where(isa, mask, vector[k], &mut rows[k]);
-    }
 }

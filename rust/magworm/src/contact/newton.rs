@@ -1,217 +1,213 @@
-//! One iteration of Newton and its line search: a direction, trials along it, and the law linearised where one is taken.
+//! Semismooth Newton's iteration for the velocities of the bodies (Alart & Curnier 1991):
+//!
+//! ```text
+//! r(v) = S v − s − Jᵀ λ(J v + û) = 0
+//! (S + Jᵀ C J) v* = s + Jᵀ λ*,   d = v* − v,   v ← v + t d
+//! ```
+//!
+//! λ is piecewise smooth, and C belongs to the piece where the iteration stands. r and u are linear in t but for λ, so their
+//! changes along d are computed once a direction, and a trial costs no product with a matrix.
 
-use super::guess::along;
-use super::law::{Ground, Point, Response};
-use super::points::point_velocity;
-use super::search::Search;
-use super::system::add_force;
-use super::{Mode, Workspace, load_vector, store_vector, store_where};
-use crate::lanes::{Isa, Mask, Number, Real};
+use super::hessian::ContactHessian;
+use super::jacobian::{add_force, point_velocity};
+use super::law::{ContactLaw, FrictionLaw, PointState};
+use super::line_search::LineSearch;
+use super::{ContactMode, ContactVector, Workspace, store_where, surface};
+use crate::lanes::{Components, Dim, Isa, Mask, Number, Real};
 use crate::model::Model;
 use crate::state::Block;
 
-/// Before the first iteration: nothing moves, and nothing is known.
+/// What a trial came to, in the lanes that made it. All others shorten their step.
+pub(super) struct TrialStatus<M> {
+    /// Found a solution.
+    pub(super) converged: M,
+    /// Accepted the trial and want a new direction.
+    pub(super) accepted: M,
+}
+
+/// Starts from v = 0, where r = −s and u = û. The full step of the first direction is accepted.
 #[inline(always)]
-pub(super) fn start<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub(super) fn begin<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (zero, one) = (isa.splat(0.0), isa.splat(1.0));
     let kept = model.system.kept();
     let symmetric = model.system.kept_entries(&block.matrix);
     let work = &mut block.contact;
-    let (mobilities, imbalance) = (&mut *work.mobility, &mut *work.imbalance);
-    let (known, rights) = (&mut *work.known, &*block.right);
+    let (inverses, residuals) = (&mut *work.inverse_diagonal, &mut *work.free_residual);
+    let (iterate, rights) = (&mut *work.iterate, &*block.right);
     let mut size = zero;
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
         let right = isa.load(&rights[unknown]);
         let diagonal = isa.load(&symmetric[kept.at(row, row)]);
-        // Multipliers have no mass; each system of theirs is solved as it is.
+        // Multipliers have no mass; each of their equations is solved exactly.
         let heavy = diagonal.gt(zero);
-        let mobility = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
-        isa.store(mobility, &mut mobilities[row]);
-        isa.store(-right, &mut imbalance[row]);
-        isa.store(zero, &mut known[row]);
-        size = size + right * right * mobility;
+        let inverse = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
+        isa.store(inverse, &mut inverses[row]);
+        isa.store(-right, &mut residuals[row]);
+        isa.store(zero, &mut iterate[row]);
+        size = size + right * right * inverse;
     }
     for c in 0..model.contacts.len() {
-        let velocity = load_vector::<D, I>(isa, &work.bias, c);
-        store_vector::<D, I>(isa, zero.eq(zero), &velocity, &mut work.velocity, c);
+        let bias = ContactVector::<D, I::F>::load(isa, &work.bias, c);
+        bias.store(isa, &mut work.velocity, c);
     }
-    Search::new(size * (<I::F as Real>::Number::RESIDUAL * <I::F as Real>::Number::RESIDUAL))
-        .store(isa, &mut work.search);
+    let relative = <I::F as Real>::Number::RESIDUAL;
+    LineSearch::new(size * (relative * relative)).store(isa, &mut work.line_search);
 }
 
-/// A new direction in the lanes of a mask, to the solution of the linearised system, and what changes along it.
+/// Newton's direction in the lanes of a mask, from the solution of the linearised system, and what changes along it.
 #[inline(always)]
-pub(super) fn turn<const D: usize, I: Isa>(
+pub(super) fn newton_direction<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
     mask: I::M,
 ) {
     let kept = model.system.kept();
-    let ghosts = kept.half_bandwidth();
+    let (ghosts, size) = (kept.half_bandwidth(), kept.size());
     let work = &mut block.contact;
-    let size = kept.size();
-    let (target, known) = (&work.target[ghosts..][..size], &work.known[..size]);
+    let (solution, iterate) = (&work.solution[ghosts..][..size], &work.iterate[..size]);
     let direction = &mut work.direction[..size];
     for row in 0..size {
-        let change = isa.load(&target[row]) - isa.load(&known[row]);
+        let change = isa.load(&solution[row]) - isa.load(&iterate[row]);
         store_where(isa, mask, change, &mut direction[row]);
     }
-    kept.multiply(
-        isa,
-        model.system.kept_entries(&block.matrix),
-        &work.direction,
-        &mut work.imbalance_change,
-    );
-    for (c, contact) in model.contacts.iter().enumerate() {
-        let arm = load_vector::<D, I>(isa, &work.arm, c);
-        let change =
-            point_velocity::<D, I>(isa, &work.direction, contact.place, contact.rigid, &arm);
-        store_vector::<D, I>(isa, mask, &change, &mut work.velocity_change, c);
+    let symmetric = model.system.kept_entries(&block.matrix);
+    kept.multiply(isa, symmetric, &work.direction, &mut work.free_residual_change);
+    for (c, pair) in model.contacts.iter().enumerate() {
+        let arm = D::Vector::load(isa, &work.arm[D::AXES * c..]);
+        let change = point_velocity::<D, I>(isa, &work.direction, pair.row, pair.rigid, arm);
+        let change: ContactVector<D, I::F> = surface::frame(pair.surface).components(change);
+        change.store_where(isa, mask, &mut work.velocity_change, c);
     }
 }
 
-/// One trial in the lanes that are left; which of them took it.
+/// One trial of the line search in the lanes of a mask. Where it is accepted, v goes there and the law is linearised anew.
 #[inline(always)]
-pub(super) fn attempt<const D: usize, I: Isa>(
+pub(super) fn line_search_trial<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
+    friction: FrictionLaw,
     block: &mut Block<I::Row>,
-    left: I::M,
-    bounded: bool,
-) -> I::M {
-    let mut search = Search::load(isa, &block.contact.search);
+    mask: I::M,
+) -> TrialStatus<I::M> {
+    let mut search = LineSearch::load(isa, &block.contact.line_search);
     let step = search.step;
-    let found = residual::<D, I>(isa, model, ground, block, step, bounded);
-    let taken = search.judge(found) & left;
-    search.store(isa, &mut block.contact.search);
-    if taken.any() {
-        advance(isa, block, step, taken);
+    let found = residual_at::<D, I>(isa, model, law, friction, block, step);
+    let accepted = search.judge(found) & mask;
+    search.store(isa, &mut block.contact.line_search);
+    if accepted.any() {
+        take_step(isa, &mut block.contact, step, accepted);
         for c in 0..model.contacts.len() {
-            linearise::<D, I>(isa, ground, block, c, taken, bounded);
+            linearise_point::<D, I>(isa, law, friction, block, c, accepted);
         }
     }
-    taken
+    let converged = accepted & search.converged();
+    TrialStatus { converged, accepted: accepted & !converged }
 }
 
-/// |S v − s − Jᵀ λ|² at a step along the direction.
+/// |r(v + t d)|².
 #[inline(always)]
-fn residual<const D: usize, I: Isa>(
+fn residual_at<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
+    friction: FrictionLaw,
     block: &mut Block<I::Row>,
     step: I::F,
-    bounded: bool,
 ) -> I::F {
     let work = &mut block.contact;
-    free_residual(isa, work, step);
-    for (c, contact) in model.contacts.iter().enumerate() {
-        let mut u = load_vector::<D, I>(isa, &work.velocity, c);
-        let change = load_vector::<D, I>(isa, &work.velocity_change, c);
-        for k in 0..D {
-            u[k] = u[k] + change[k] * step;
-        }
-        let point = point::<D, I>(isa, work, c);
-        let [up, x, z] = point.impulse::<D>(ground, &u, bounded).impulse;
-        let arm = load_vector::<D, I>(isa, &work.arm, c);
-        let rows = &mut work.residual[contact.place..];
-        add_force::<D, I>(isa, rows, contact.rigid, &arm, &[-x, -up, -z]);
+    contact_free_residual(isa, work, step);
+    for (c, pair) in model.contacts.iter().enumerate() {
+        let velocity = ContactVector::<D, I::F>::load(isa, &work.velocity, c);
+        let change = ContactVector::<D, I::F>::load(isa, &work.velocity_change, c);
+        let point = load_point::<D, I>(isa, work, c);
+        let found = point.impulse(law, friction, velocity + change * step);
+        let arm = D::Vector::load(isa, &work.arm[D::AXES * c..]);
+        let force = surface::frame(pair.surface).vector(found.impulse);
+        add_force::<D, I>(isa, &mut work.residual[pair.row..], pair.rigid, arm, -force);
     }
-    size_of_residual(isa, work)
+    residual_squared(isa, work)
 }
 
 /// |r|² in the metric of 1/diag S.
 #[inline(always)]
-pub(super) fn size_of_residual<I: Isa>(isa: I, work: &Workspace<I::Row>) -> I::F {
+pub(super) fn residual_squared<I: Isa>(isa: I, work: &Workspace<I::Row>) -> I::F {
     let residuals = &*work.residual;
-    let mobilities = &work.mobility[..residuals.len()];
+    let inverses = &work.inverse_diagonal[..residuals.len()];
     let mut sum = isa.splat(0.0);
     for row in 0..residuals.len() {
         let residual = isa.load(&residuals[row]);
-        sum = sum + residual * residual * isa.load(&mobilities[row]);
+        sum = sum + residual * residual * isa.load(&inverses[row]);
     }
     sum
 }
 
-/// S v − s at a step along the direction.
+/// r = S (v + t d) − s, without contacts.
 #[inline(always)]
-pub(super) fn free_residual<I: Isa>(isa: I, work: &mut Workspace<I::Row>, step: I::F) {
+pub(super) fn contact_free_residual<I: Isa>(isa: I, work: &mut Workspace<I::Row>, step: I::F) {
     let residuals = &mut *work.residual;
-    let imbalance = &work.imbalance[..residuals.len()];
-    let changes = &work.imbalance_change[..residuals.len()];
+    let starts = &work.free_residual[..residuals.len()];
+    let changes = &work.free_residual_change[..residuals.len()];
     for row in 0..residuals.len() {
         let change = isa.load(&changes[row]) * step;
-        isa.store(isa.load(&imbalance[row]) + change, &mut residuals[row]);
+        isa.store(isa.load(&starts[row]) + change, &mut residuals[row]);
     }
 }
 
-/// Goes a step along the direction in the lanes of a mask.
+/// v ← v + t d in the lanes of a mask, and all that is linear in v.
 #[inline(always)]
-fn advance<I: Isa>(isa: I, block: &mut Block<I::Row>, step: I::F, mask: I::M) {
-    let work = &mut block.contact;
-    follow(isa, &mut work.known, &work.direction, step, mask);
-    follow(isa, &mut work.imbalance, &work.imbalance_change, step, mask);
-    follow(isa, &mut work.velocity, &work.velocity_change, step, mask);
+fn take_step<I: Isa>(isa: I, work: &mut Workspace<I::Row>, step: I::F, mask: I::M) {
+    axpy(isa, step, &work.direction, &mut work.iterate, mask);
+    axpy(isa, step, &work.free_residual_change, &mut work.free_residual, mask);
+    axpy(isa, step, &work.velocity_change, &mut work.velocity, mask);
 }
 
-/// Adds a step along changes in the lanes of a mask.
+/// y ← y + t x in the lanes of a mask.
 #[inline(always)]
-pub(super) fn follow<I: Isa>(
-    isa: I,
-    rows: &mut [I::Row],
-    changes: &[I::Row],
-    step: I::F,
-    mask: I::M,
-) {
-    let changes = &changes[..rows.len()];
-    for k in 0..rows.len() {
-        let next = isa.load(&rows[k]) + isa.load(&changes[k]) * step;
-        store_where(isa, mask, next, &mut rows[k]);
+pub(super) fn axpy<I: Isa>(isa: I, t: I::F, x: &[I::Row], y: &mut [I::Row], mask: I::M) {
+    let x = &x[..y.len()];
+    for k in 0..y.len() {
+        let next = isa.load(&y[k]) + isa.load(&x[k]) * t;
+        store_where(isa, mask, next, &mut y[k]);
     }
 }
 
-/// Impulses, mode and response of a point at its velocity, in the lanes of a mask.
+/// Impulse, mode and linearised law of a point at its velocity, in the lanes of a mask.
 #[inline(always)]
-fn linearise<const D: usize, I: Isa>(
+fn linearise_point<D: Dim, I: Isa>(
     isa: I,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
+    friction: FrictionLaw,
     block: &mut Block<I::Row>,
     c: usize,
     mask: I::M,
-    bounded: bool,
 ) {
-    let u = load_vector::<D, I>(isa, &block.contact.velocity, c);
-    let bias = load_vector::<D, I>(isa, &block.contact.bias, c);
-    let point = point::<D, I>(isa, &block.contact, c);
-    let found = point.impulse::<D>(ground, &u, bounded);
-    // What slid the other way passed the place where it sticks.
-    let slip = &mut block.contact.slip;
-    let before = [isa.load(&slip[2 * c]), isa.load(&slip[2 * c + 1])];
-    let turned = along::<I::F, D>(found.pushed, before).lt(isa.splat(0.0));
-    let slid = isa.load(&block.mode[c]).eq(isa.splat(Mode::SLIDE));
-    let passed = slid & found.slides & turned;
-    for k in 0..2 {
-        store_where(isa, mask, found.pushed[k], &mut slip[2 * c + k]);
-    }
-    store_where(isa, mask, found.mode(), &mut block.mode[c]);
-    store_where(isa, mask, found.impulse[0], &mut block.normal[c]);
-    for t in 1..D {
-        // The pad gives by (λ⁰ − λ)/w; what its spring holds then remains for the next step.
-        let given = (point.warm[t] - found.impulse[t]) * ground.viscous_share;
-        let held = found.impulse[t] + given;
-        store_where(isa, mask, held, &mut block.pad[(D - 1) * c + t - 1]);
-    }
-    let response = Response::at::<D>(&point, ground, &found, &u, &bias, bounded, passed);
-    response.store(isa, mask, &mut block.contact.response, c);
+    let u = ContactVector::<D, I::F>::load(isa, &block.contact.velocity, c);
+    let bias = ContactVector::load(isa, &block.contact.bias, c);
+    let point = load_point::<D, I>(isa, &block.contact, c);
+    let found = point.impulse(law, friction, u);
+    // A point whose friction turned round while it slid has passed the velocity at which it sticks.
+    let directions = &mut block.contact.friction_direction[D::TANGENTS * c..];
+    let reverses = found.direction.dot(D::Tangent::load(isa, directions)).lt(isa.splat(0.0));
+    let slid = isa.load(&block.contact_mode[c]).eq(isa.splat(ContactMode::Slide.code()));
+    let stick = slid & found.sliding & reverses;
+    found.direction.store_where(isa, mask, directions);
+    store_where(isa, mask, found.mode(), &mut block.contact_mode[c]);
+    store_where(isa, mask, found.impulse.normal, &mut block.normal_impulse[c]);
+    // The damper holds its share of λ⁰ − λ in this step only; the spring keeps the rest for the next.
+    let (before, after) = (point.warm_start.tangent, found.impulse.tangent);
+    let spring = after + (before - after) * law.damper_share;
+    spring.store_where(isa, mask, &mut block.tangential_spring[D::TANGENTS * c..]);
+    let hessian = ContactHessian::linearise(&point, law, friction, &found, [u, bias], stick);
+    hessian.store_where(isa, mask, &mut block.contact.hessian, c);
 }
 
 #[inline(always)]
-fn point<const D: usize, I: Isa>(isa: I, work: &Workspace<I::Row>, c: usize) -> Point<I::F> {
-    Point {
-        warm: load_vector::<D, I>(isa, &work.warm, c),
-        coefficient: isa.load(&work.coefficient[c]),
-        bound: isa.load(&work.bound[c]),
+fn load_point<D: Dim, I: Isa>(isa: I, work: &Workspace<I::Row>, c: usize) -> PointState<D, I::F> {
+    PointState {
+        warm_start: ContactVector::load(isa, &work.warm_start, c),
+        coefficient: isa.load(&work.friction_coefficient[c]),
+        bound: isa.load(&work.friction_bound[c]),
     }
 }

@@ -1,220 +1,232 @@
-//! The velocities at the end of a step, with contact: the solution of S v − s = Jᵀ λ(J v).
+//! The velocities of the bodies at the end of a step, with contact.
 //!
-//! λ is piecewise smooth, so Newton's iteration takes the derivative of the piece where it stands (semismooth Newton;
-//! Alart & Curnier 1991), with a line search. The first iterate solves the system of the modes that the step starts
-//! from; in most steps it is the solution. Where an iteration goes round, another one starts elsewhere. Rigid feet may
-//! have several solutions or none (the paradox of Painlevé), so what follows most closely from the step before comes
-//! first.
+//! Newton's iteration ([`super::newton`]) is started in several ways, one after the other, until one converges: from the modes
+//! of the step before, which in most steps are those of the solution; from the solution with lagged friction; with all points
+//! sticking; with all sliding without friction. The equations may have several solutions, so what follows most closely from the
+//! step before comes first. They may have none (Painlevé's paradox); the last strategy ends where friction agrees with
+//! Coulomb's law as far as it will.
 
-use super::bounded::{bound_by_last, relax};
-use super::flight::{fly, touching};
-use super::guess::{first_guess, restart};
-use super::law::Ground;
-use super::newton::{attempt, start, turn};
-use super::onset::weaken;
-use super::search::Search;
-use super::system::solve_linearised;
-use crate::lanes::{Isa, Mask, Real};
+use super::contact_free::{any_active, try_contact_free_step};
+use super::initial::{cold_start, warm_start};
+use super::law::{ContactLaw, FrictionLaw};
+use super::line_search::LineSearch;
+use super::newton::{begin, line_search_trial, newton_direction};
+use super::newton_system::solve_linearised;
+use super::stick_slip::stick_slip_transition;
+use super::tresca::{lag_friction_bound, relax_friction_bounds};
+use crate::lanes::{Dim, Isa, Mask, Real};
 use crate::model::Model;
 use crate::state::Block;
 
-/// Solves for the velocities of the kept unknowns at the end of the step into `next`; updates impulses and modes.
-pub fn solve<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let Some(law) = &model.program.ground else { return };
-    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
-    let touching = isa.vectorize(
-        #[inline(always)]
-        || touching(isa, block, running),
-    );
-    if touching || !fly::<D, I>(isa, model, block, running) {
-        let ground = isa.vectorize(
-            #[inline(always)]
-            || Ground::of(isa, law, model.step_s, block),
-        );
-        press::<D, I>(isa, model, &ground, block, running);
-    }
-    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.next[unknown] = block.contact.known[row];
+/// Where an iteration starts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// Every point in the mode that follows from the step before.
+    Warm,
+    /// Where the strategy before ended.
+    Here,
+    /// Active points stick.
+    Sticking,
+    /// Active points slide without friction.
+    Frictionless,
+}
+
+/// What bounds friction.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Friction {
+    /// The normal impulse: Coulomb's law.
+    Coulomb,
+    /// The normal impulse of the step before: Tresca's law. Its solution is a start for others.
+    Lagged,
+    /// A bound of its own, relaxed towards Coulomb's law: Tresca's law with a fixed point.
+    FixedPoint,
+}
+
+impl Friction {
+    fn law(self) -> FrictionLaw {
+        match self {
+            Self::Coulomb => FrictionLaw::Coulomb,
+            Self::Lagged | Self::FixedPoint => FrictionLaw::Tresca,
+        }
     }
 }
 
-/// The step of a block in which some point may touch.
-fn press<const D: usize, I: Isa>(
+/// A way to look for a solution.
+#[derive(Clone, Copy)]
+struct Strategy {
+    start: Start,
+    friction: Friction,
+}
+
+/// The strategies of a step in their order.
+const STRATEGIES: [Strategy; 6] = [
+    Strategy { start: Start::Warm, friction: Friction::Coulomb },
+    Strategy { start: Start::Here, friction: Friction::Lagged },
+    Strategy { start: Start::Here, friction: Friction::Coulomb },
+    Strategy { start: Start::Sticking, friction: Friction::Coulomb },
+    Strategy { start: Start::Frictionless, friction: Friction::Coulomb },
+    Strategy { start: Start::Here, friction: Friction::FixedPoint },
+];
+
+/// The strategies after a transition from static to dynamic friction.
+const AFTER_TRANSITION: [Strategy; 2] = [
+    Strategy { start: Start::Here, friction: Friction::Coulomb },
+    Strategy { start: Start::Here, friction: Friction::FixedPoint },
+];
+
+/// Solves for the velocities of the kept unknowns at the end of the step into `next`; updates impulses and modes.
+pub fn solve<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let Some(parameters) = &model.program.contact else { return };
+    let running = isa.load(&block.running[0]).eq(isa.splat(1.0));
+    let active = isa.vectorize(
+        #[inline(always)]
+        || any_active(isa, block, running),
+    );
+    if active || !try_contact_free_step::<D, I>(isa, model, block, running) {
+        let law = isa.vectorize(
+            #[inline(always)]
+            || ContactLaw::new(isa, parameters, model.step_s, block),
+        );
+        solve_contact::<D, I>(isa, model, &law, block, running);
+    }
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.next[unknown] = block.contact.iterate[row];
+    }
+}
+
+/// Solves a step in which some point may be active, and once more where static friction gave way in it.
+fn solve_contact<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
     block: &mut Block<I::Row>,
     running: I::M,
 ) {
     isa.vectorize(
         #[inline(always)]
         || {
-            for (c, contact) in model.contacts.iter().enumerate() {
-                first_guess::<D, I>(isa, ground, block, c, contact);
+            for (c, pair) in model.contacts.iter().enumerate() {
+                warm_start::<D, I>(isa, law, block, c, pair);
             }
-            start::<D, I>(isa, model, block);
+            begin::<D, I>(isa, model, block);
         },
     );
-    let left = settle::<D, I>(isa, model, ground, block, running, &PHASES);
-    let weaker = isa.vectorize(
+    let unconverged = run_strategies::<D, I>(isa, model, law, block, running, &STRATEGIES);
+    let passes = isa.vectorize(
         #[inline(always)]
-        || weaken::<D, I>(isa, model, ground, block, running & !left),
+        || stick_slip_transition::<D, I>(isa, model, law, block, running & !unconverged),
     );
-    if weaker.any() {
-        settle::<D, I>(isa, model, ground, block, weaker, &AGAIN);
+    if passes.any() {
+        run_strategies::<D, I>(isa, model, law, block, passes, &AFTER_TRANSITION);
     }
 }
 
-/// Goes through phases in the lanes of a mask; those for which none found a solution.
-fn settle<const D: usize, I: Isa>(
+/// Runs strategies in the lanes of a mask until each has converged; the lanes in which none did.
+fn run_strategies<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
-    phases: &[Phase],
+    strategies: &[Strategy],
 ) -> I::M {
-    let trials = model.scene.solver.contact_iterations.div_ceil(PHASES.len() + AGAIN.len());
-    let mut left = mask;
-    for &phase in phases {
-        begin::<D, I>(isa, model, ground, block, left, phase);
-        let still = iterate::<D, I>(isa, model, ground, block, left, phase.friction, trials);
-        if phase.friction != Friction::Lagged {
-            left = still;
+    let mut unconverged = mask;
+    for &strategy in strategies {
+        start::<D, I>(isa, model, law, block, unconverged, strategy);
+        let rest = iterate::<D, I>(isa, model, law, block, unconverged, strategy.friction);
+        if strategy.friction != Friction::Lagged {
+            unconverged = rest;
         }
-        if !left.any() {
+        if !unconverged.any() {
             break;
         }
     }
-    left
+    unconverged
 }
 
-/// Where an iteration starts.
-#[derive(Clone, Copy, PartialEq)]
-enum From {
-    /// Every point in the mode that it is most likely to be in.
-    Guess,
-    /// Where the last iteration ended.
-    Here,
-    /// What touches sticks.
-    Stick,
-    /// What touches slides without friction.
-    Slide,
-}
-
-/// What bounds friction.
-#[derive(Clone, Copy, PartialEq)]
-enum Friction {
-    /// The normal impulse found.
-    Coulomb,
-    /// That of the step before.
-    Lagged,
-    /// The same, brought to agree with the one found as far as it will.
-    Settled,
-}
-
-/// An iteration.
-#[derive(Clone, Copy)]
-struct Phase {
-    from: From,
-    friction: Friction,
-}
-
-/// The iterations of a step, until one has found a solution of Coulomb's law. The lagged one is not a solution but a
-/// place to start from; the last one is what is left where there is none.
-const PHASES: [Phase; 6] = [
-    Phase { from: From::Guess, friction: Friction::Coulomb },
-    Phase { from: From::Here, friction: Friction::Lagged },
-    Phase { from: From::Here, friction: Friction::Coulomb },
-    Phase { from: From::Stick, friction: Friction::Coulomb },
-    Phase { from: From::Slide, friction: Friction::Coulomb },
-    Phase { from: From::Here, friction: Friction::Settled },
-];
-
-/// The iterations that follow where static friction gave way within the step.
-const AGAIN: [Phase; 2] = [
-    Phase { from: From::Here, friction: Friction::Coulomb },
-    Phase { from: From::Here, friction: Friction::Settled },
-];
-
-/// Starts an iteration in the lanes of a mask; its first trial is taken whatever it is.
-fn begin<const D: usize, I: Isa>(
+/// Starts a strategy in the lanes of a mask. Its first trial is accepted whatever its residual.
+fn start<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
-    phase: Phase,
+    strategy: Strategy,
 ) {
-    let here = phase.from == From::Here;
+    let here = strategy.start == Start::Here;
     isa.vectorize(
         #[inline(always)]
         || {
             let work = &mut block.contact;
             for c in 0..model.contacts.len() {
-                if matches!(phase.from, From::Stick | From::Slide) {
-                    restart::<D, I>(isa, ground, work, c, phase.from == From::Stick, mask);
+                match strategy.start {
+                    Start::Sticking => cold_start::<D, I>(isa, law, work, c, true, mask),
+                    Start::Frictionless => cold_start::<D, I>(isa, law, work, c, false, mask),
+                    Start::Warm | Start::Here => {}
                 }
-                if phase.friction != Friction::Coulomb {
-                    bound_by_last::<D, I>(isa, ground, work, c);
+                if strategy.friction != Friction::Coulomb {
+                    lag_friction_bound(isa, law, work, c, D::AXES);
                 }
             }
-            let mut search = Search::load(isa, &work.search);
-            search.retake(mask, isa.splat(if here { 0.0 } else { 1.0 }));
-            search.store(isa, &mut work.search);
+            let mut search = LineSearch::load(isa, &work.line_search);
+            search.accept_next(mask, isa.splat(if here { 0.0 } else { 1.0 }));
+            search.store(isa, &mut work.line_search);
         },
     );
     if !here {
         solve_linearised::<D, I>(isa, model, block);
         isa.vectorize(
             #[inline(always)]
-            || turn::<D, I>(isa, model, block, mask),
+            || newton_direction::<D, I>(isa, model, block, mask),
         );
     }
 }
 
-/// Newton's iteration in the lanes of a mask; those that have not found a solution in so many trials.
-fn iterate<const D: usize, I: Isa>(
+/// Newton's iteration in the lanes of a mask; those that have not converged within their share of the trials of a step.
+fn iterate<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    ground: &Ground<I::F>,
+    law: &ContactLaw<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
     friction: Friction,
-    trials: usize,
 ) -> I::M {
-    let mut left = mask;
+    let strategies = STRATEGIES.len() + AFTER_TRANSITION.len();
+    let trials = model.scene.solver.contact_iterations.div_ceil(strategies);
+    let mut unconverged = mask;
     for trial in 1..=trials {
-        let taken = isa.vectorize(
+        let mut status = isa.vectorize(
             #[inline(always)]
-            || attempt::<D, I>(isa, model, ground, block, left, friction != Friction::Coulomb),
+            || line_search_trial::<D, I>(isa, model, law, friction.law(), block, unconverged),
         );
         block.counters.trials += 1;
-        let mut solved = taken & Search::load(isa, &block.contact.search).solved();
-        let mut turning = taken & !solved;
-        if friction == Friction::Settled && solved.any() {
-            solved = isa.vectorize(
+        if friction == Friction::FixedPoint && status.converged.any() {
+            status.converged = isa.vectorize(
                 #[inline(always)]
-                || relax::<D, I>(isa, model, ground, block, solved),
+                || relax_friction_bounds(isa, model, law, block, status.converged),
             );
         }
-        left = left & !solved;
-        turning = turning & left;
-        if !left.any() || trial == trials {
+        unconverged = unconverged & !status.converged;
+        if !unconverged.any() || trial == trials {
             break;
         }
-        if turning.any() {
-            solve_linearised::<D, I>(isa, model, block);
-            isa.vectorize(
-                #[inline(always)]
-                || {
-                    turn::<D, I>(isa, model, block, turning);
-                    let mut search = Search::load(isa, &block.contact.search);
-                    search.begin(turning);
-                    search.store(isa, &mut block.contact.search);
-                },
-            );
+        if status.accepted.any() {
+            next_direction::<D, I>(isa, model, block, status.accepted);
         }
     }
-    left
+    unconverged
+}
+
+/// Begins a new direction in the lanes of a mask.
+fn next_direction<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, mask: I::M) {
+    solve_linearised::<D, I>(isa, model, block);
+    isa.vectorize(
+        #[inline(always)]
+        || {
+            newton_direction::<D, I>(isa, model, block, mask);
+            let mut search = LineSearch::load(isa, &block.contact.line_search);
+            search.begin_direction(mask);
+            search.store(isa, &mut block.contact.line_search);
+        },
+    );
 }

@@ -5,9 +5,9 @@
 //! n = ẑ × t, so ∂κ/∂e = −κ′ n_e/|e| and ∂κ/∂f = κ′ n_f/|f| with κ′ = dκ/dφ, which is 1 or 1 + κ²/4: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
-use super::{Equations, MOST, Places, Scheme, Springs, gather};
+use super::{Equations, MOST, Positions, Scheme, Springs, generalised_gradient};
 use crate::lanes::math::atan2;
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Components, Dim, Isa, Plane, Real, Vector};
 use crate::model::Model;
 use crate::scene::Curvature;
 use crate::state::Block;
@@ -24,36 +24,37 @@ fn curvature<F: Real>(law: Curvature, dot: F, cross: F) -> (F, F) {
     }
 }
 
+/// n = ẑ × t.
+#[inline(always)]
+fn normal<F: Real>(t: Vector<F, 2>) -> Vector<F, 2> {
+    Vector([-t[1], t[0]])
+}
+
 /// Adds all bending springs to the equations of a step.
 #[inline(always)]
 pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme: Scheme<I::F>) {
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
     let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
-    let places = Places { node: &block.node, q: &block.q };
+    let positions = Positions { node: &block.node, q: &block.q };
     let law = model.scene.solver.curvature;
     let mut equations = Equations { matrix, right, v };
     let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.bend {
         let (e, f) = (spring.node - 1, spring.node);
-        let te = [isa.load(&tangent[2 * e]), isa.load(&tangent[2 * e + 1])];
-        let tf = [isa.load(&tangent[2 * f]), isa.load(&tangent[2 * f + 1])];
-        let cross = te[0] * tf[1] - te[1] * tf[0];
-        let dot = te[0] * tf[0] + te[1] * tf[1];
-        let (strain, steepness) = curvature(law, dot, cross);
-        let over_e = steepness * isa.load(&inverse_length[e]);
-        let over_f = steepness * isa.load(&inverse_length[f]);
+        let te = Vector::load(isa, &tangent[2 * e..]);
+        let tf = Vector::load(isa, &tangent[2 * f..]);
+        let [sine] = Plane::torque(te, tf).0;
+        let (strain, slope) = curvature(law, te.dot(tf), sine);
+        let over_e = slope * isa.load(&inverse_length[e]);
+        let over_f = slope * isa.load(&inverse_length[f]);
         // ∂κ/∂e and ∂κ/∂f.
-        let de = [te[1] * over_e, -(te[0] * over_e)];
-        let df = [-(tf[1] * over_f), tf[0] * over_f];
-        let over_nodes = [[-de[0], -de[1]], [de[0] - df[0], de[1] - df[1]], df];
-        gather(isa, places, &spring.stencil, &over_nodes, &mut gradient);
+        let (de, df) = (-(normal(te) * over_e), normal(tf) * over_f);
+        let of_nodes = [-de, de - df, df];
+        let stencil = &spring.stencil;
+        generalised_gradient::<Plane, I, 3>(isa, positions, stencil, &of_nodes, &mut gradient);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
-        let springs = Springs {
-            stencil: &spring.stencil,
-            gradients: [&gradient],
-            strains: [strain],
-            stiffness: [stiffness],
-        };
+        let springs =
+            Springs { stencil, gradients: [&gradient], strains: [strain], stiffness: [stiffness] };
         springs.add(isa, &mut equations, scheme);
     }
 }

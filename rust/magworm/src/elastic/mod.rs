@@ -18,14 +18,13 @@ mod twist;
 pub mod vector;
 
 pub use bend::assemble as bend;
-pub use frames::{axes, turn};
+pub use frames::{axes, rotate_frames};
 pub use kinematics::{place, update as kinematics};
 pub use stretch::assemble as stretch;
 pub use twist::assemble as bend_and_twist;
-pub use vector::cross;
 
 use crate::integrate::Coefficients;
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Components, Dim, Isa, Real, Vec3};
 use crate::model::{MOST, Spin, Stencil};
 
 /// How the impulse of a spring enters the equations of a step.
@@ -65,7 +64,7 @@ impl<F: Real> Scheme<F> {
 
 /// Node positions and unknowns, for gradients over rigid nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Places<'a, R> {
+pub struct Positions<'a, R> {
     /// Node positions [m], shape [nodes × D].
     pub node: &'a [R],
     /// Unknowns [m, rad], shape [unknowns].
@@ -88,11 +87,11 @@ pub struct Equations<'a, R> {
 ///
 /// A rigid node at arm a from its magnet moves with δx = δX + δω × a, hence g_ω = a × g.
 #[inline(always)]
-pub fn gather<const D: usize, I: Isa, const N: usize>(
+pub fn generalised_gradient<D: Dim, I: Isa, const N: usize>(
     isa: I,
-    places: Places<'_, I::Row>,
+    positions: Positions<'_, I::Row>,
     stencil: &Stencil,
-    gradient: &[[I::F; D]; N],
+    gradient: &[D::Vector<I::F>; N],
     out: &mut [I::F; MOST],
 ) {
     for slot in 0..stencil.count {
@@ -103,24 +102,16 @@ pub fn gather<const D: usize, I: Isa, const N: usize>(
             continue;
         }
         let (g, slot) = (gradient[k], stencil.slots[k]);
-        for axis in 0..D {
+        for axis in 0..D::AXES {
             out[slot + axis] = out[slot + axis] + g[axis];
         }
         if stencil.body[k].is_some() {
             let (dof, node) = (stencil.body_dofs[k], stencil.nodes[k]);
-            let mut arm = [isa.splat(0.0); D];
-            for axis in 0..D {
-                arm[axis] =
-                    isa.load(&places.node[D * node + axis]) - isa.load(&places.q[dof + axis]);
-            }
-            let (ax, ay, gx, gy) = (arm[0], arm[1], g[0], g[1]);
-            if D == 2 {
-                out[slot + 2] = out[slot + 2] + (ax * gy - ay * gx);
-            } else {
-                let (az, gz) = (arm[D - 1], g[D - 1]);
-                out[slot + 3] = out[slot + 3] + (ay * gz - az * gy);
-                out[slot + 4] = out[slot + 4] + (az * gx - ax * gz);
-                out[slot + 5] = out[slot + 5] + (ax * gy - ay * gx);
+            let centre = D::Vector::load(isa, &positions.q[dof..]);
+            let arm = D::Vector::load(isa, &positions.node[D::AXES * node..]) - centre;
+            let torque = D::torque(arm, g);
+            for k in 0..D::ROTATIONS {
+                out[slot + D::AXES + k] = out[slot + D::AXES + k] + torque[k];
             }
         }
     }
@@ -128,12 +119,7 @@ pub fn gather<const D: usize, I: Isa, const N: usize>(
 
 /// Adds the gradient over the twist of an element with tangent t. A rigid element twists by t·δω.
 #[inline(always)]
-pub fn gather_twist<F: crate::lanes::Real>(
-    spin: Spin,
-    t: &[F; 3],
-    gradient: F,
-    out: &mut [F; MOST],
-) {
+pub fn add_twist_gradient<F: Real>(spin: Spin, t: Vec3<F>, gradient: F, out: &mut [F; MOST]) {
     match spin {
         Spin::Fixed => {}
         Spin::Free(slot) => out[slot] = out[slot] + gradient,
@@ -222,7 +208,7 @@ fn rank_row<I: Isa, const K: usize>(
 
 /// Adds `weight` · g to a vector.
 #[inline(always)]
-pub fn add_scaled<I: Isa>(
+pub fn add_force<I: Isa>(
     isa: I,
     vector: &mut [I::Row],
     stencil: &Stencil,
@@ -239,7 +225,12 @@ pub fn add_scaled<I: Isa>(
 
 /// g·v over a stencil.
 #[inline(always)]
-pub fn rate<I: Isa>(isa: I, vector: &[I::Row], stencil: &Stencil, gradient: &[I::F]) -> I::F {
+pub fn strain_rate<I: Isa>(
+    isa: I,
+    vector: &[I::Row],
+    stencil: &Stencil,
+    gradient: &[I::F],
+) -> I::F {
     let dofs = &stencil.dofs[..stencil.count];
     let gradient = &gradient[..dofs.len()];
     let mut sum = isa.splat(0.0);
@@ -276,9 +267,9 @@ impl<F, const K: usize> Springs<'_, F, K> {
         }
         for k in 0..K {
             let gradient = self.gradients[k];
-            let rate = rate(isa, equations.v, self.stencil, gradient);
+            let rate = strain_rate(isa, equations.v, self.stencil, gradient);
             let force = (self.strains[k] + rate * scheme.before_s) * self.stiffness[k];
-            add_scaled(isa, equations.right, self.stencil, gradient, -(force * dt));
+            add_force(isa, equations.right, self.stencil, gradient, -(force * dt));
         }
     }
 }

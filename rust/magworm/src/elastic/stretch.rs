@@ -4,14 +4,17 @@
 //! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ of each normal n, one in the plane and two
 //! in space, and enters the step as springs do. In compression it would be negative and is left out of the matrix.
 
-use super::{Equations, MOST, Places, Scheme, Springs, add_rank_one, add_scaled, gather, rate};
-use crate::lanes::{Isa, Real};
+use super::{
+    Equations, MOST, Positions, Scheme, Springs, add_force, add_rank_one, generalised_gradient,
+    strain_rate,
+};
+use crate::lanes::{Components, Dim, Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
 
 /// Adds all axial springs to the equations of a step.
 #[inline(always)]
-pub fn assemble<const D: usize, I: Isa>(
+pub fn assemble<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
@@ -21,24 +24,18 @@ pub fn assemble<const D: usize, I: Isa>(
     let (tangent, length, inverse_length) =
         (&*block.tangent, &*block.length, &*block.inverse_length);
     let (director, side) = (&*block.director, &*block.side);
-    let places = Places { node: &block.node, q: &block.q };
+    let positions = Positions { node: &block.node, q: &block.q };
     let mut equations = Equations { matrix, right, v };
     let mut gradient = [isa.splat(0.0); MOST];
     for spring in &model.stretch {
         let e = spring.element;
-        let mut t = [isa.splat(0.0); D];
-        for axis in 0..D {
-            t[axis] = isa.load(&tangent[D * e + axis]);
-        }
+        let stencil = &spring.stencil;
+        let t = D::Vector::load(isa, &tangent[D::AXES * e..]);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
         let strain = isa.load(&length[e]) - spring.rest_m;
-        gather::<D, I, 2>(isa, places, &spring.stencil, &opposed(&t), &mut gradient);
-        let springs = Springs {
-            stencil: &spring.stencil,
-            gradients: [&gradient],
-            strains: [strain],
-            stiffness: [stiffness],
-        };
+        generalised_gradient::<D, I, 2>(isa, positions, stencil, &[-t, t], &mut gradient);
+        let springs =
+            Springs { stencil, gradients: [&gradient], strains: [strain], stiffness: [stiffness] };
         springs.add(isa, &mut equations, scheme);
         if !scheme.implicit() {
             continue;
@@ -47,30 +44,20 @@ pub fn assemble<const D: usize, I: Isa>(
         let force = tension * isa.load(&inverse_length[e]) * scheme.dt;
         let [before_s, after_s] = scheme.geometric_s;
         let mut n = t;
-        for normal in 1..D {
-            if D == 2 {
+        for normal in 1..D::AXES {
+            if D::AXES == 2 {
                 n[0] = -t[1];
                 n[1] = t[0];
             } else {
-                let rows = if normal == 1 { &director[6 * e..] } else { &side[3 * e..] };
-                for axis in 0..D {
-                    n[axis] = isa.load(&rows[axis]);
-                }
+                n = D::Vector::load(
+                    isa,
+                    if normal == 1 { &director[6 * e..] } else { &side[3 * e..] },
+                );
             }
-            gather::<D, I, 2>(isa, places, &spring.stencil, &opposed(&n), &mut gradient);
-            add_rank_one(isa, equations.matrix, &spring.stencil, &gradient, force * after_s);
-            let turned = rate(isa, equations.v, &spring.stencil, &gradient) * before_s;
-            add_scaled(isa, equations.right, &spring.stencil, &gradient, -(force * turned));
+            generalised_gradient::<D, I, 2>(isa, positions, stencil, &[-n, n], &mut gradient);
+            add_rank_one(isa, equations.matrix, stencil, &gradient, force * after_s);
+            let turned = strain_rate(isa, equations.v, stencil, &gradient) * before_s;
+            add_force(isa, equations.right, stencil, &gradient, -(force * turned));
         }
     }
-}
-
-/// (−a, a): gradients over the nodes of an element of the length along a.
-#[inline(always)]
-fn opposed<F: Real, const D: usize>(a: &[F; D]) -> [[F; D]; 2] {
-    let mut pair = [*a; 2];
-    for axis in 0..D {
-        pair[0][axis] = -a[axis];
-    }
-    pair
 }

@@ -18,11 +18,11 @@
 //! ∂σ/∂f = −γ (t_e − c t_f)/|f|, c = t_e·t_f. With x = tan(φ/2): σ = atan(x)/x and
 //! γ = (1 + x²)(1 − σ (1 + x²))/4x². Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
-use super::frames::load3;
-use super::vector::{add_scaled, cross, dot, scaled};
-use super::{Equations, MOST, Places, Scheme, Springs, gather, gather_twist};
+use super::{
+    Equations, MOST, Positions, Scheme, Springs, add_twist_gradient, generalised_gradient,
+};
 use crate::lanes::math::{atan, atan2, round};
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Components, Isa, Real, Space, Vec3, Vector};
 use crate::model::{Bend, Model};
 use crate::scene::Curvature;
 use crate::state::Block;
@@ -35,8 +35,8 @@ pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme
     for (k, spring) in model.bend.iter().enumerate() {
         let joint = Joint::load(isa, block, spring.node);
         let strains = joint.strains(isa, block, model.scene.solver.curvature, k);
-        let places = Places { node: &block.node, q: &block.q };
-        joint.gradients(isa, places, spring, &strains, &mut gradients);
+        let positions = Positions { node: &block.node, q: &block.q };
+        joint.gradients(isa, positions, spring, &strains, &mut gradients);
         let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
         let mut equations = Equations { matrix, right, v };
         let springs = Springs {
@@ -55,12 +55,12 @@ pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme
 
 /// Frames and inverse lengths of the elements e and f at a node.
 struct Joint<F> {
-    te: [F; 3],
-    tf: [F; 3],
-    ue: [F; 3],
-    uf: [F; 3],
-    se: [F; 3],
-    sf: [F; 3],
+    te: Vec3<F>,
+    tf: Vec3<F>,
+    ue: Vec3<F>,
+    uf: Vec3<F>,
+    se: Vec3<F>,
+    sf: Vec3<F>,
     over_e: F,
     over_f: F,
     /// t_e·t_f.
@@ -68,7 +68,7 @@ struct Joint<F> {
     /// 1/χ.
     over_chi: F,
     /// κb.
-    binormal: [F; 3],
+    binormal: Vec3<F>,
 }
 
 /// Measures of strain of a node, and the factor of its curvatures with its derivative γ.
@@ -84,20 +84,20 @@ impl<F: Real> Joint<F> {
     #[inline(always)]
     fn load<I: Isa<F = F>>(isa: I, block: &Block<I::Row>, node: usize) -> Self {
         let (e, f) = (node - 1, node);
-        let te = load3(isa, &block.tangent, 3 * e);
-        let tf = load3(isa, &block.tangent, 3 * f);
-        let cosine = dot(&te, &tf);
+        let te: Vec3<F> = Vector::load(isa, &block.tangent[3 * e..]);
+        let tf = Vector::load(isa, &block.tangent[3 * f..]);
+        let cosine = te.dot(tf);
         let over_chi = isa.splat(1.0) / (cosine + 1.0);
         Self {
-            ue: load3(isa, &block.director, 6 * e),
-            uf: load3(isa, &block.director, 6 * f),
-            se: load3(isa, &block.side, 3 * e),
-            sf: load3(isa, &block.side, 3 * f),
+            ue: Vector::load(isa, &block.director[6 * e..]),
+            uf: Vector::load(isa, &block.director[6 * f..]),
+            se: Vector::load(isa, &block.side[3 * e..]),
+            sf: Vector::load(isa, &block.side[3 * f..]),
             over_e: isa.load(&block.inverse_length[e]),
             over_f: isa.load(&block.inverse_length[f]),
             cosine,
             over_chi,
-            binormal: scaled(&cross(&te, &tf), over_chi + over_chi),
+            binormal: te.cross(tf) * (over_chi + over_chi),
             te,
             tf,
         }
@@ -113,15 +113,14 @@ impl<F: Real> Joint<F> {
         k: usize,
     ) -> Strains<F> {
         let half = isa.splat(0.5);
-        let sides = add_scaled(&self.se, isa.splat(1.0), &self.sf);
-        let ups = add_scaled(&self.ue, isa.splat(1.0), &self.uf);
+        let (sides, ups) = (self.se + self.sf, self.ue + self.uf);
         let (factor, slope) = match law {
-            Curvature::Angle => angle_factor(dot(&self.binormal, &self.binormal) * 0.25),
+            Curvature::Angle => angle_factor(self.binormal.norm_squared() * 0.25),
             Curvature::Tangent => (isa.splat(1.0), isa.splat(0.0)),
         };
         Strains {
-            first: dot(&self.binormal, &sides) * half * factor,
-            second: -(dot(&self.binormal, &ups) * half * factor),
+            first: self.binormal.dot(sides) * half * factor,
+            second: -(self.binormal.dot(ups) * half * factor),
             twist: self.twist(isa, block, k),
             factor,
             slope,
@@ -131,9 +130,8 @@ impl<F: Real> Joint<F> {
     /// τ, on the branch nearest to that of the step before: it may pass ±π.
     #[inline(always)]
     fn twist<I: Isa<F = F, M = F::Mask>>(&self, isa: I, block: &mut Block<I::Row>, k: usize) -> F {
-        let tangents = add_scaled(&self.te, isa.splat(1.0), &self.tf);
-        let carried = add_scaled(&self.ue, -(dot(&self.ue, &self.tf) * self.over_chi), &tangents);
-        let angle = atan2(dot(&carried, &self.sf) * -1.0, dot(&carried, &self.uf));
+        let carried = self.ue - (self.te + self.tf) * (self.ue.dot(self.tf) * self.over_chi);
+        let angle = atan2(carried.dot(self.sf) * -1.0, carried.dot(self.uf));
         let before = isa.load(&block.twist[k]);
         let turns = round((before - angle) / std::f64::consts::TAU);
         let twist = angle + turns * std::f64::consts::TAU;
@@ -147,58 +145,56 @@ impl<F: Real> Joint<F> {
     fn gradients<I: Isa<F = F, M = F::Mask>>(
         &self,
         isa: I,
-        places: Places<'_, I::Row>,
+        positions: Positions<'_, I::Row>,
         spring: &Bend,
         strains: &Strains<F>,
         out: &mut [[F; MOST]; 3],
     ) {
         let one = isa.splat(1.0);
         let (factor, slope) = (strains.factor, strains.slope);
-        let tilde = scaled(&add_scaled(&self.te, one, &self.tf), self.over_chi);
-        // ∂ln σ-free part: directions in which the angle grows.
-        let fold_e = add_scaled(&self.tf, -self.cosine, &self.te);
-        let fold_f = add_scaled(&self.te, -self.cosine, &self.tf);
+        let tilde = (self.te + self.tf) * self.over_chi;
+        // Directions in which the angle between the elements grows.
+        let fold_e = self.tf - self.te * self.cosine;
+        let fold_f = self.te - self.tf * self.cosine;
         let over_factor = one / factor;
-        for (axis, strain, ae, af, sign) in [
-            (0, strains.first, &self.se, &self.sf, 1.0),
-            (1, strains.second, &self.ue, &self.uf, -1.0),
-        ] {
-            let middle = scaled(&add_scaled(ae, one, af), self.over_chi * factor * sign);
+        for (axis, strain, ae, af, sign) in
+            [(0, strains.first, self.se, self.sf, 1.0), (1, strains.second, self.ue, self.uf, -1.0)]
+        {
+            let middle = (ae + af) * (self.over_chi * factor * sign);
             let change = -(strain * over_factor * slope);
-            let de = add_scaled(&cross(&self.tf, &middle), -strain, &tilde);
-            let de = scaled(&add_scaled(&de, change, &fold_e), self.over_e);
-            let df = add_scaled(&cross(&middle, &self.te), -strain, &tilde);
-            let df = scaled(&add_scaled(&df, change, &fold_f), self.over_f);
-            over_nodes(isa, places, spring, &de, &df, &mut out[axis]);
+            let de = self.tf.cross(middle) - tilde * strain;
+            let df = middle.cross(self.te) - tilde * strain;
+            let de = (de + fold_e * change) * self.over_e;
+            let df = (df + fold_f * change) * self.over_f;
+            element_gradients(isa, positions, spring, de, df, &mut out[axis]);
         }
-        let half = scaled(&self.binormal, isa.splat(0.5));
-        let (de, df) = (scaled(&half, self.over_e), scaled(&half, self.over_f));
-        over_nodes(isa, places, spring, &de, &df, &mut out[2]);
+        let half = self.binormal * isa.splat(0.5);
+        let (de, df) = (half * self.over_e, half * self.over_f);
+        element_gradients(isa, positions, spring, de, df, &mut out[2]);
 
-        let half = scaled(&half, factor);
+        let half = half * factor;
         let [spin_e, spin_f] = spring.stencil.spins;
-        gather_twist(spin_e, &self.te, -dot(&half, &self.ue), &mut out[0]);
-        gather_twist(spin_f, &self.tf, -dot(&half, &self.uf), &mut out[0]);
-        gather_twist(spin_e, &self.te, -dot(&half, &self.se), &mut out[1]);
-        gather_twist(spin_f, &self.tf, -dot(&half, &self.sf), &mut out[1]);
-        gather_twist(spin_e, &self.te, -one, &mut out[2]);
-        gather_twist(spin_f, &self.tf, one, &mut out[2]);
+        add_twist_gradient(spin_e, self.te, -half.dot(self.ue), &mut out[0]);
+        add_twist_gradient(spin_f, self.tf, -half.dot(self.uf), &mut out[0]);
+        add_twist_gradient(spin_e, self.te, -half.dot(self.se), &mut out[1]);
+        add_twist_gradient(spin_f, self.tf, -half.dot(self.sf), &mut out[1]);
+        add_twist_gradient(spin_e, self.te, -one, &mut out[2]);
+        add_twist_gradient(spin_f, self.tf, one, &mut out[2]);
     }
 }
 
-/// Gradient over the stencil from those over the elements.
+/// Gradient over the unknowns of a spring from the gradients over its elements.
 #[inline(always)]
-fn over_nodes<I: Isa>(
+fn element_gradients<I: Isa>(
     isa: I,
-    places: Places<'_, I::Row>,
+    positions: Positions<'_, I::Row>,
     spring: &Bend,
-    de: &[I::F; 3],
-    df: &[I::F; 3],
+    de: Vec3<I::F>,
+    df: Vec3<I::F>,
     out: &mut [I::F; MOST],
 ) {
-    let head = [-de[0], -de[1], -de[2]];
-    let middle = [de[0] - df[0], de[1] - df[1], de[2] - df[2]];
-    gather::<3, I, 3>(isa, places, &spring.stencil, &[head, middle, *df], out);
+    let of_nodes = [-de, de - df, df];
+    generalised_gradient::<Space, I, 3>(isa, positions, &spring.stencil, &of_nodes, out);
 }
 
 /// σ = atan(x)/x and γ = (1 + x²)(1 − σ (1 + x²))/4x² from x²; by their series near 0.

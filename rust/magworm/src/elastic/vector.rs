@@ -13,15 +13,3 @@ pub fn cross<F: Real>(a: &[F; 3], b: &[F; 3]) -> [F; 3] {
 pub fn dot<F: Real>(a: &[F; 3], b: &[F; 3]) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
-
-/// a + k b.
-#[inline(always)]
-pub fn add_scaled<F: Real>(a: &[F; 3], k: F, b: &[F; 3]) -> [F; 3] {
-    [a[0] + b[0] * k, a[1] + b[1] * k, a[2] + b[2] * k]
-}
-
-/// k a.
-#[inline(always)]
-pub fn scaled<F: Real>(a: &[F; 3], k: F) -> [F; 3] {
-    [a[0] * k, a[1] * k, a[2] * k]
-}

@@ -8,8 +8,7 @@
 //! Lanes may have been reset at different times. Where one is due, the block computes the wrenches of all its lanes, and each
 //! takes them or keeps its own; so the bits of a lane do not depend on when its neighbours were reset.
 
-use crate::lanes::{Isa, Number, Real, Row};
-use crate::model::body_size;
+use crate::lanes::{Dim, Isa, Number, Real, Row};
 use crate::state::Block;
 
 /// Lanes that run and take new wrenches in this step.
@@ -23,15 +22,15 @@ pub fn due<I: Isa>(isa: I, block: &Block<I::Row>, interval: u64) -> I::M {
 
 /// Keeps the new wrench of a body magnet in the lanes that are due, and gives the others the one that they hold.
 #[inline(always)]
-pub fn hold<const D: usize, I: Isa>(
+pub fn hold<D: Dim, I: Isa>(
     isa: I,
     block: &mut Block<I::Row>,
     body: usize,
     due: I::M,
     wrench: &mut [I::F; 6],
 ) {
-    for k in 0..body_size(D) {
-        let row = &mut block.wrench[body_size(D) * body + k];
+    for k in 0..D::BODY {
+        let row = &mut block.wrench[D::BODY * body + k];
         wrench[k] = I::F::select(due, wrench[k], isa.load(row));
         isa.store(wrench[k], row);
     }

@@ -5,8 +5,8 @@ use crate::actuator::{Actuator, Layout, states};
 use crate::elastic;
 use crate::elastic::vector::cross;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Mask, Real};
-use crate::model::{Magnetics, Model, PairModel, body_size};
+use crate::lanes::{Dim, Isa, Mask, Real};
+use crate::model::{Magnetics, Model, PairModel};
 use crate::state::Block;
 
 /// Components of a wrench in space.
@@ -14,7 +14,7 @@ const WRENCH: usize = 6;
 
 /// Adds Δt m g to the right-hand side. Multipliers have no mass, and only bodies off their centre have a torque of weight.
 #[inline(always)]
-pub fn gravity<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn gravity<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
     let (masses, right) = (&*block.mass, &mut *block.right);
@@ -27,7 +27,7 @@ pub fn gravity<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
 
 /// Adds Δt times the magnetic wrench on every body magnet.
 #[inline(always)]
-pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn magnets<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let program = &model.program;
     if program.magnetics.is_none() && program.uniform_field.is_none() {
         return;
@@ -43,7 +43,7 @@ pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
         let dof = model.coordinates.bodies[body];
         let mut wrench = [isa.splat(0.0); WRENCH];
         if let (true, Some(magnetics), Some(sources)) = (computes, &program.magnetics, &sources) {
-            if D == 2 {
+            if D::AXES == 2 {
                 planar_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
             } else {
                 spatial_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
@@ -56,7 +56,7 @@ pub fn magnets<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
             uniform_torque::<D, I>(isa, model, block, body, &mut wrench);
         }
         let dt = model.step_s;
-        for k in 0..body_size(D) {
+        for k in 0..D::BODY {
             let entry = &mut block.right[dof + k];
             isa.store(isa.load(entry) + wrench[k] * dt, entry);
         }
@@ -78,21 +78,21 @@ struct Sources<'a, I: Isa> {
 impl<'a, I: Isa> Sources<'a, I> {
     /// Those of the stage; none where a scene has none.
     #[inline(always)]
-    fn of<const D: usize>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
+    fn of<D: Dim>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
         let mut actuators = states(&model.program.actuators, &block.stage);
         let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
         let (stage, state): (_, &[I::Row]) = actuators.find_map(stage)?;
         let at = |row: usize| isa.load(&state[row]);
         let zero = isa.splat(0.0);
-        let yaw = if D == 3 { sin_cos(at(3)) } else { (zero, zero) };
-        let z = if D == 3 { at(2) } else { zero };
+        let yaw = if D::AXES == 3 { sin_cos(at(3)) } else { (zero, zero) };
+        let z = if D::AXES == 3 { at(2) } else { zero };
         let robot = block.centre_x_of_lanes(isa, model);
         Some(Self { layout: &stage.layout, robot, stage: [at(0), at(1), z], yaw })
     }
 }
 
 #[inline(always)]
-fn uniform_torque<const D: usize, I: Isa>(
+fn uniform_torque<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
     block: &Block<I::Row>,
@@ -104,7 +104,7 @@ fn uniform_torque<const D: usize, I: Isa>(
         [isa.splat(field.field_t[0]), isa.splat(field.field_t[1]), isa.splat(field.field_t[2])];
     let remanence = isa.load(&block.remanence[body]);
     let direction = model.mesh.magnets[body].direction;
-    if D == 2 {
+    if D::AXES == 2 {
         let cos = isa.load(&block.frame[2 * body]);
         let sin = isa.load(&block.frame[2 * body + 1]);
         let [cos, sin] = direction.frame(cos, sin);

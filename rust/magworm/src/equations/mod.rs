@@ -13,7 +13,7 @@ mod off_centre;
 mod ties;
 
 use crate::elastic::{self, Scheme};
-use crate::lanes::Isa;
+use crate::lanes::{Dim, Isa};
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
@@ -23,10 +23,10 @@ pub use off_centre::carry;
 
 /// Begins matrix and right-hand side of a step: inertia alone.
 #[inline(always)]
-pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn inertia<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     model.system.clear(isa, &mut block.matrix);
     diagonal_inertia(isa, model, block);
-    if D == 3 {
+    if D::AXES == 3 {
         rotary_inertia(isa, model, block);
     }
     off_centre::inertia::<D, I>(isa, model, block);
@@ -34,10 +34,10 @@ pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
 
 /// Adds the springs of the rod, and the multipliers where magnets are held by them.
 #[inline(always)]
-pub fn springs<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn springs<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let scheme = scheme(isa, model, block);
     elastic::stretch::<D, I>(isa, model, block, scheme);
-    if D == 2 {
+    if D::AXES == 2 {
         elastic::bend(isa, model, block, scheme);
     } else {
         elastic::bend_and_twist(isa, model, block, scheme);

@@ -12,7 +12,7 @@
 use crate::elastic;
 use crate::elastic::vector::{cross, dot};
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Dim, Isa, Real, Space};
 use crate::model::{Model, OffCentre};
 use crate::state::Block;
 
@@ -21,16 +21,16 @@ const PRODUCTS: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 
 /// Adds what S brings to both sides, and in space the products of inertia.
 #[inline(always)]
-pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn inertia<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for body in &model.off_centre {
         let axes = axes_before::<D, I>(isa, block, body);
         let s = first_moment::<D, I>(isa, block, body, &axes);
         let velocity = vector::<D, I>(isa, &block.v, body.dof);
         let rate = rotation::<D, I>(isa, &block.v, body.dof);
         let (push, spin) = (cross(&rate, &s), cross(&s, &velocity));
-        let first = body.dof + D;
-        (0..D).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
-        if D == 2 {
+        let first = body.dof + D::AXES;
+        (0..D::AXES).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
+        if D::AXES == 2 {
             add(isa, spin[2], &mut block.right[first]);
             set(isa, model, block, first, body.dof, -s[1]);
             set(isa, model, block, first, body.dof + 1, s[0]);
@@ -48,7 +48,7 @@ pub fn inertia<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<
 
 /// Adds the torque Δt S × g of the weight.
 #[inline(always)]
-pub fn gravity<const D: usize, I: Isa>(
+pub fn gravity<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
@@ -58,8 +58,8 @@ pub fn gravity<const D: usize, I: Isa>(
     for body in &model.off_centre {
         let axes = axes_before::<D, I>(isa, block, body);
         let torque = cross(&first_moment::<D, I>(isa, block, body, &axes), &pull);
-        let first = body.dof + D;
-        if D == 2 {
+        let first = body.dof + D::AXES;
+        if D::AXES == 2 {
             add(isa, torque[2], &mut block.right[first]);
         } else {
             (0..3).for_each(|k| add(isa, torque[k], &mut block.right[first + k]));
@@ -70,7 +70,7 @@ pub fn gravity<const D: usize, I: Isa>(
 /// Moves bodies and their velocities over a step as their centres of mass move, in the lanes of `go`; places and frames are
 /// already those at its end, as if X had moved straight.
 #[inline(always)]
-pub fn carry<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
+pub fn carry<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
     for body in &model.off_centre {
         let (before, after) =
             (axes_before::<D, I>(isa, block, body), axes_after::<D, I>(isa, model, block, body));
@@ -79,20 +79,20 @@ pub fn carry<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I:
         let (from, to) = (arm(&before), arm(&after));
         let rate = rotation::<D, I>(isa, &block.next, body.dof);
         let swing = cross(&rate, &from);
-        let rate = if D == 2 {
+        let rate = if D::AXES == 2 {
             rate
         } else {
             turned_rate(isa, block, body, share, &rate, [&before, &after])
         };
         let swung = cross(&rate, &to);
-        for k in 0..D {
+        for k in 0..D::AXES {
             let velocity = isa.load(&block.next[body.dof + k]) + swing[k] - swung[k];
             let place = isa.load(&block.q[body.dof + k]);
             let place = place + (swing[k] * model.step_s - (to[k] - from[k]));
             keep(isa, go, place, &mut block.q[body.dof + k]);
             keep(isa, go, velocity, &mut block.v[body.dof + k]);
         }
-        if D == 3 {
+        if D::AXES == 3 {
             (0..3).for_each(|k| keep(isa, go, rate[k], &mut block.v[body.dof + 3 + k]));
         }
     }
@@ -161,7 +161,7 @@ fn add_products<I: Isa>(
 
 /// S in x, y, z.
 #[inline(always)]
-fn first_moment<const D: usize, I: Isa>(
+fn first_moment<D: Dim, I: Isa>(
     isa: I,
     block: &Block<I::Row>,
     body: &OffCentre,
@@ -172,12 +172,8 @@ fn first_moment<const D: usize, I: Isa>(
 
 /// Axes of a body at the start of a step.
 #[inline(always)]
-fn axes_before<const D: usize, I: Isa>(
-    isa: I,
-    block: &Block<I::Row>,
-    body: &OffCentre,
-) -> [[I::F; 3]; 3] {
-    if D == 3 {
+fn axes_before<D: Dim, I: Isa>(isa: I, block: &Block<I::Row>, body: &OffCentre) -> [[I::F; 3]; 3] {
+    if D::AXES == 3 {
         return elastic::axes(isa, block, body.body);
     }
     let frame = &block.frame[2 * body.body..];
@@ -186,16 +182,16 @@ fn axes_before<const D: usize, I: Isa>(
 
 /// Axes of a body at the end of a step.
 #[inline(always)]
-fn axes_after<const D: usize, I: Isa>(
+fn axes_after<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
     block: &Block<I::Row>,
     body: &OffCentre,
 ) -> [[I::F; 3]; 3] {
-    if D == 3 {
+    if D::AXES == 3 {
         let first = 6 * model.mesh.magnets[body.body].element;
-        let up = vector::<3, I>(isa, &block.director, first);
-        let tangent = vector::<3, I>(isa, &block.director, first + 3);
+        let up = vector::<Space, I>(isa, &block.director, first);
+        let tangent = vector::<Space, I>(isa, &block.director, first + 3);
         return [tangent, up, cross(&tangent, &up)];
     }
     let (sin, cos) = sin_cos(isa.load(&block.q[body.dof + 2]));
@@ -211,17 +207,21 @@ fn planar_axes<F: Real>(cos: F, sin: F) -> [[F; 3]; 3] {
 
 /// A vector of the first D components, 0 beyond.
 #[inline(always)]
-fn vector<const D: usize, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
+fn vector<D: Dim, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
     let mut vector = [isa.splat(0.0); 3];
-    (0..D).for_each(|k| vector[k] = isa.load(&rows[first + k]));
+    (0..D::AXES).for_each(|k| vector[k] = isa.load(&rows[first + k]));
     vector
 }
 
 /// Angular velocity of a body whose unknowns begin at `dof`.
 #[inline(always)]
-fn rotation<const D: usize, I: Isa>(isa: I, rows: &[I::Row], dof: usize) -> [I::F; 3] {
+fn rotation<D: Dim, I: Isa>(isa: I, rows: &[I::Row], dof: usize) -> [I::F; 3] {
     let zero = isa.splat(0.0);
-    if D == 2 { [zero, zero, isa.load(&rows[dof + 2])] } else { vector::<3, I>(isa, rows, dof + 3) }
+    if D::AXES == 2 {
+        [zero, zero, isa.load(&rows[dof + 2])]
+    } else {
+        vector::<Space, I>(isa, rows, dof + 3)
+    }
 }
 
 /// 1/m; 1 for a robot without mass.

@@ -4,13 +4,13 @@
 //! c = x_node − X − R(θ) r: the node follows the magnet, and what it strayed in the last step
 //! (the centripetal ½ ω² r Δt²) is taken back. The saddle-point matrix [M Gᵀ; G 0] stays banded.
 
-use crate::lanes::Isa;
+use crate::lanes::{Components, Dim, Isa};
 use crate::model::{Anchor, Model, Tie};
 use crate::state::Block;
 
 /// Adds the constraints of a step.
 #[inline(always)]
-pub fn constrain<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn constrain<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for tie in &model.coordinates.ties {
         follow::<D, I>(isa, model, block, tie);
     }
@@ -18,30 +18,27 @@ pub fn constrain<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Bloc
 
 /// The node of a tie follows its magnet.
 #[inline(always)]
-fn follow<const D: usize, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie: &Tie) {
+fn follow<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie: &Tie) {
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
     let reach = f64::from(tie.side) * model.mesh.magnets[tie.body].half_length_m;
-    let axes = if D == 2 { 2 } else { 9 };
-    let mut arm = [isa.splat(0.0); D];
-    for k in 0..D {
-        arm[k] = isa.load(&block.frame[axes * tie.body + k]) * reach;
-    }
-    for k in 0..D {
+    let axes = D::Frame::<I::F>::COUNT;
+    let arm = D::Vector::load(isa, &block.frame[axes * tie.body..]) * isa.splat(reach);
+    for k in 0..D::AXES {
         let row = tie.dof + k;
         let strayed = isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
         isa.store(-(strayed / model.step_s), &mut block.right[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));
-        if D == 2 {
+        if D::AXES == 2 {
             // ∂(X + R r)/∂θ = ẑ × arm.
             let turn = if k == 0 { arm[1] } else { -arm[0] };
             set(isa, model, block, row, body + 2, turn);
         } else {
             // ∂(ω × arm)_k/∂ω: a row of the skew matrix of −arm.
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            set(isa, model, block, row, body + 3 + next, -arm[last % D]);
-            set(isa, model, block, row, body + 3 + last, arm[next % D]);
+            set(isa, model, block, row, body + 3 + next, -arm[last % D::AXES]);
+            set(isa, model, block, row, body + 3 + last, arm[next % D::AXES]);
         }
     }
 }

@@ -14,18 +14,22 @@
 
 pub mod banded;
 pub mod chain;
+mod dim;
 pub mod math;
 mod number;
 mod row;
 mod scalar;
 mod single;
 pub mod unsymmetric;
+mod vector;
 mod wide;
 
+pub use dim::{Dim, Plane, Space};
 pub use number::Number;
 pub use row::Row;
 pub use scalar::{Scalar, ScalarSingle};
 pub use single::Single;
+pub use vector::{Components, Vec3, Vector};
 pub use wide::{InstructionSet, WIDE, WIDE_SINGLE, WideTask, run_single_on, run_wide, run_wide_on};
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};

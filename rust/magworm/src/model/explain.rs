@@ -57,7 +57,7 @@ impl Model {
     }
 
     fn explain_ground(&self) -> String {
-        match &self.program.ground {
+        match &self.program.contact {
             Some(law) => format!(
                 "{} contact points that {} of the unknowns move, static friction {}, dynamic {}",
                 self.contacts.len(),

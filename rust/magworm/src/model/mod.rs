@@ -1,5 +1,6 @@
 //! `compile(Scene) → Model`: everything that does not change in time, shared by all environments.
 
+mod contacts;
 mod coordinates;
 mod explain;
 mod explicit_limit;
@@ -12,7 +13,8 @@ pub(crate) mod rows;
 mod shape;
 mod waves;
 
-pub use crate::scene::{Element, Mesh, MeshMagnet, Sole};
+pub use crate::scene::{ContactPoint, Element, Frame, Mesh, MeshMagnet};
+pub use contacts::{ContactPair, ContactParameters, Surface};
 pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
 pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre, off_centre_rows};
@@ -26,7 +28,7 @@ use crate::actuator::Actuator;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
-use crate::scene::{Ground, Parameter, Scene, SceneError};
+use crate::scene::{Parameter, Scene, SceneError};
 
 /// A compiled scene.
 #[derive(Clone, Debug)]
@@ -55,8 +57,8 @@ pub struct Model {
     pub translations: Vec<(usize, usize)>,
     /// Greatest thickness of the body [m].
     pub thickness_m: f64,
-    /// Ground contacts.
-    pub contacts: Vec<Contact>,
+    /// Contact points with the surfaces that they may press on.
+    pub contacts: Vec<ContactPair>,
     /// The terms of this scene's program; what a scene lacks is absent.
     pub program: Program,
     /// The phases of a step that it needs, in their order.
@@ -77,7 +79,7 @@ pub struct Program {
     /// Torque of a uniform field on the body magnets.
     pub uniform_field: Option<UniformTorque>,
     /// Ground contact with friction.
-    pub ground: Option<GroundLaw>,
+    pub contact: Option<ContactParameters>,
     /// What moves the sources of the field.
     pub actuators: Vec<Actuator>,
 }
@@ -89,23 +91,6 @@ pub struct UniformTorque {
     pub field_t: [f64; 3],
     /// Each body magnet in it.
     pub magnets: Vec<UniformField>,
-}
-
-/// Friction of the ground, see [`crate::contact`].
-#[derive(Clone, Copy, Debug)]
-pub struct GroundLaw {
-    /// μ_s.
-    pub static_friction: f64,
-    /// μ_d.
-    pub dynamic_friction: f64,
-    /// v_d [m/s].
-    pub transition_speed_m_s: f64,
-    /// D_f [N].
-    pub adhesion_n: f64,
-    /// Stiffness k of the pad under a contact point [N/m].
-    pub stiffness_n_m: f64,
-    /// Time constant τ of its damper [s].
-    pub damping_time_s: f64,
 }
 
 /// Axial spring of an element: E = ½ k (|e| − l)², k = EA/l.
@@ -137,19 +122,6 @@ pub struct Bend {
     pub stencil: Stencil,
 }
 
-/// A point of the underside that may touch the ground.
-#[derive(Clone, Copy, Debug)]
-pub struct Contact {
-    /// Where it is.
-    pub sole: Sole,
-    /// First unknown that it moves with: x of its magnet, or of its node.
-    pub dof: usize,
-    /// Place of that unknown among those that the contact solve keeps.
-    pub place: usize,
-    /// Whether it turns with a magnet.
-    pub rigid: bool,
-}
-
 impl Model {
     /// Validates and compiles a scene.
     ///
@@ -168,9 +140,9 @@ impl Model {
         let mut bend = bending_springs(scene, &mesh, &coordinates);
         let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
         let off_centre = inertia::off_centre(scene, &mesh, &coordinates);
-        let touching = if scene.ground.is_some() { &mesh.soles[..] } else { &[] };
+        let touching = if scene.ground.is_some() { &mesh.contact_points[..] } else { &[] };
         let system = system(&coordinates, &stretch, &bend, touching);
-        let contacts = contact_points(touching, &coordinates, &system);
+        let contacts = contacts::contact_pairs(touching, &coordinates, &system);
         let in_matrix = coordinates.ties.is_empty();
         stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&system));
         bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
@@ -240,7 +212,10 @@ impl Program {
                 field_t: [field.x_t, field.y_t, field.z_t],
                 magnets: mesh.magnets.iter().map(|m| UniformField::new(m.cuboid())).collect(),
             }),
-            ground: scene.ground.as_ref().map(|ground| ground_law(ground, scene, mesh)),
+            contact: scene
+                .ground
+                .as_ref()
+                .map(|ground| ContactParameters::new(ground, scene, mesh)),
             actuators: Actuator::of(scene),
         }
     }
@@ -260,51 +235,6 @@ fn gravity(scene: &Scene) -> [f64; 3] {
     let incline = scene.ground.as_ref().map_or(0.0, |g| radians(g.incline_deg));
     let (sin, cos) = sin_cos(incline);
     [scene.gravity_m_s2 * sin, -scene.gravity_m_s2 * cos, 0.0]
-}
-
-/// Share of the body's thickness by which the pad of a contact point gives under the weight of the whole body.
-const GIVE: f64 = 1e-3;
-/// Greatest weight of a contact point in the equations of a step, in masses of the body: beyond it a long step would find
-/// no solution.
-const HEAVIEST: f64 = 100.0;
-
-/// What bears a contact point: a stiff spring with a damper. Its time constant is twice that of critical damping under the
-/// whole body, 4 √(m/k), so that nothing rebounds.
-fn ground_law(ground: &Ground, scene: &Scene, mesh: &Mesh) -> GroundLaw {
-    let thickness_m = mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max);
-    let (mass_kg, give_m) = (body_mass_kg(scene, mesh), GIVE * thickness_m);
-    let stiffness_n_m = mass_kg * 9.81 / give_m;
-    let damping_time_s = 4.0 * (mass_kg / stiffness_n_m).sqrt();
-    let step_s = scene.solver.step_s;
-    let stiffest_n_m = HEAVIEST * mass_kg / (step_s * damping_time_s.max(step_s));
-    // A foot has a toe and a heel in the plane, two of each in space.
-    let share = if scene.dimensions == 3 { 0.5 } else { 1.0 };
-    GroundLaw {
-        static_friction: ground.static_friction,
-        dynamic_friction: ground.dynamic_friction,
-        // Slower than this a point that slides cannot be told from one whose pad gives.
-        transition_speed_m_s: ground.transition_speed_m_s.max(give_m / damping_time_s),
-        adhesion_n: share * ground.adhesion_n,
-        stiffness_n_m: share * stiffness_n_m.min(stiffest_n_m),
-        damping_time_s,
-    }
-}
-
-fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
-    let rubber_m3: f64 = (0..mesh.elements.len()).map(|e| mesh.volume_m3(e)).sum();
-    scene.material.density_kg_m3 * rubber_m3 + magnets_kg(mesh)
-}
-
-/// Mass of all magnets: one product for those that are alike.
-fn magnets_kg(mesh: &Mesh) -> f64 {
-    let mut left_kg: Vec<f64> = mesh.magnets.iter().map(MeshMagnet::mass_kg).collect();
-    let mut total_kg = 0.0;
-    while let Some(&mass_kg) = left_kg.first() {
-        let before = left_kg.len();
-        left_kg.retain(|other_kg| *other_kg != mass_kg);
-        total_kg += mass_kg * (before - left_kg.len()) as f64;
-    }
-    total_kg
 }
 
 fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Stretch> {
@@ -364,27 +294,16 @@ fn cube(x: f64) -> f64 {
     x * x * x
 }
 
-fn contact_points(soles: &[Sole], coordinates: &Coordinates, system: &Chain) -> Vec<Contact> {
-    let place = |dof| system.place(dof).expect("what touches the ground is kept");
-    let at = |sole, dof, rigid| Some(Contact { sole, dof, place: place(dof), rigid });
-    soles
-        .iter()
-        .filter_map(|&sole| match sole {
-            Sole::Foot { body, .. } => at(sole, coordinates.bodies[body], true),
-            Sole::Node { node, .. } => match coordinates.anchors[node] {
-                Anchor::Free { dof } => at(sole, dof, false),
-                Anchor::Rigid { body, .. } => at(sole, coordinates.bodies[body], true),
-                Anchor::Fixed => None,
-            },
-        })
-        .collect()
-}
-
 /// The shape of the equations of a step. Where only magnets touch the ground, what lies between them is eliminated
 /// before contact is solved.
-fn system(coordinates: &Coordinates, stretch: &[Stretch], bend: &[Bend], soles: &[Sole]) -> Chain {
+fn system(
+    coordinates: &Coordinates,
+    stretch: &[Stretch],
+    bend: &[Bend],
+    points: &[ContactPoint],
+) -> Chain {
     let on_magnets =
-        !soles.is_empty() && soles.iter().all(|sole| matches!(sole, Sole::Foot { .. }));
+        !points.is_empty() && points.iter().all(|point| matches!(point.frame, Frame::Body(_)));
     // A multiplier has no mass of its own: it cannot be eliminated before the magnet that it follows.
     let on_magnets = on_magnets && coordinates.ties.is_empty();
     let mut system = if on_magnets {

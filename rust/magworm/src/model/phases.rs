@@ -1,6 +1,6 @@
 //! The phases of a step that a scene needs.
 
-use super::{Contact, Program};
+use super::{ContactPair, Program};
 
 /// A part of a solver step. What a scene lacks has no phase, so it costs nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,9 +51,9 @@ impl Phase {
     }
 
     /// Those that a program needs, in the order in which they run.
-    pub(super) fn of(program: &Program, contacts: &[Contact]) -> Vec<Self> {
+    pub(super) fn of(program: &Program, contacts: &[ContactPair]) -> Vec<Self> {
         let magnetic = program.magnetics.is_some() || program.uniform_field.is_some();
-        let touches = program.ground.is_some() && !contacts.is_empty();
+        let touches = program.contact.is_some() && !contacts.is_empty();
         let phases = [
             (Self::Kinematics, true),
             (Self::Inertia, true),

@@ -52,10 +52,13 @@ pub struct RowGroup {
     pub rows: fn(&Model) -> usize,
 }
 
-/// Rows of a point's linearised impulses, of its law of contact.
-pub const RESPONSE: usize = 9;
+/// Rows of a contact's linearised law: λ*, C_n, c, and the lower half of C_t.
+pub const fn hessian_rows(dimensions: usize) -> usize {
+    let tangents = dimensions - 1;
+    dimensions + 1 + tangents + tangents * (tangents + 1) / 2
+}
 /// Rows of a line search.
-pub const SEARCH: usize = 6;
+pub const LINE_SEARCH: usize = 6;
 
 /// Hands all declarations to another macro, in the order in which a snapshot holds them. A group reads
 /// `name: unit, rows => allowed;` as in [`RowGroup`]; what is allowed is left out where any number is.
@@ -70,12 +73,12 @@ macro_rules! block_rows {
                 /// What the springs take for the velocities at the start of a step, see [`crate::integrate::Coefficients::lag`], shape [unknowns].
                 lagged: "m/s, rad/s", |m| m.coordinates.count;
                 /// Normal impulse of each contact in the last step, shape [contacts].
-                normal: "N·s", |m| m.contacts.len();
-                /// What the spring of each pad holds along x and in space along z, shape [contacts × (D − 1)]. Friction
+                normal_impulse: "N·s", |m| m.contacts.len();
+                /// Impulse that the tangential spring of each contact holds along x and in space along z, shape [contacts × (D − 1)]. Friction
                 /// differs from it by what the damper held in the last step.
-                pad: "N·s", |m| (m.dimensions() - 1) * m.contacts.len();
-                /// State of each contact, see `contact::Mode`, shape [contacts].
-                mode: "1", |m| m.contacts.len() => Allowed::Whole(2);
+                tangential_spring: "N·s", |m| (m.dimensions() - 1) * m.contacts.len();
+                /// State of each contact, see `contact::ContactMode`, shape [contacts].
+                contact_mode: "1", |m| m.contacts.len() => Allowed::Whole(2);
                 /// What the actuators are at and how they move, one after the other, see [`crate::actuator`].
                 stage: "m, rad, m/s, rad/s", |m| Sizes::of(&m.program.actuators).state;
                 /// What they are to reach.
@@ -87,7 +90,7 @@ macro_rules! block_rows {
                 /// 1 where a magnet is in, 0 where it is out, shape [magnets].
                 present: "1", |m| m.magnets() => Allowed::Whole(1);
                 /// Positions of the nodes held in place, shape [fixed nodes × D].
-                held: "m", |m| m.dimensions() * m.mesh.fixed_nodes;
+                fixed_position: "m", |m| m.dimensions() * m.mesh.fixed_nodes;
                 /// In space up direction and tangent of each element, shape [elements × 6].
                 director: "1", |m| in_space(m, 6 * (m.nodes() - 1)) => Allowed::Frames;
                 /// In space twist of each bending node, beyond ±π where it has gone there, shape [bending nodes].
@@ -128,45 +131,44 @@ macro_rules! block_rows {
                 next: "m/s, rad/s", |m| m.coordinates.count;
             }
             Contact {
-                /// From a point's body to the point, shape [contacts × D].
+                /// r: from a point's body to the point, shape [contacts × D].
                 arm: "m", |m| m.dimensions() * m.contacts.len();
-                /// What is known of the velocity that the law of a point sees: upwards the gap over the time within
-                /// which it closes, and what rotation bends, shape [contacts × D].
+                /// û: the part of a point's velocity that v has no share in, shape [contacts × D].
                 bias: "m/s", |m| m.dimensions() * m.contacts.len();
-                /// Coefficient of friction in this step, shape [contacts].
-                coefficient: "1", |m| m.contacts.len();
-                /// Impulses of the step before, upwards and along the ground: there λ⁰, shape [contacts × D].
-                warm: "N·s", |m| m.dimensions() * m.contacts.len();
-                /// Greatest tangential impulse where friction has a bound of its own, shape [contacts].
-                bound: "N·s", |m| m.contacts.len();
-                /// Impulses linearised in the velocities of the points, see `law::Response`, shape [contacts × 9].
-                response: "N·s, kg", |m| RESPONSE * m.contacts.len();
-                /// 1 where a point was closed or is about to sink at the start of the step, shape [contacts].
-                touching: "1", |m| m.contacts.len();
-                /// Direction in which friction pushed a point when it was linearised last, shape [contacts × 2].
-                slip: "1", |m| 2 * m.contacts.len();
-                /// Velocities of the points, with the bias, shape [contacts × D].
+                /// μ in this step, shape [contacts].
+                friction_coefficient: "1", |m| m.contacts.len();
+                /// λ of the step before, along the tangents λ⁰, shape [contacts × D].
+                warm_start: "N·s", |m| m.dimensions() * m.contacts.len();
+                /// F of Tresca's law, shape [contacts].
+                friction_bound: "N·s", |m| m.contacts.len();
+                /// λ* and C, see `hessian::ContactHessian`, shape [contacts × 5], in space [contacts × 9].
+                hessian: "N·s, kg", |m| hessian_rows(m.dimensions()) * m.contacts.len();
+                /// 1 where a point was closed before or would be inside the surface at the end of the step, shape [contacts].
+                active: "1", |m| m.contacts.len();
+                /// Direction of ξ_t where the law was linearised last, shape [contacts × (D − 1)].
+                friction_direction: "1", |m| (m.dimensions() - 1) * m.contacts.len();
+                /// u, shape [contacts × D].
                 velocity: "m/s", |m| m.dimensions() * m.contacts.len();
-                /// How they change along the direction of search, shape [contacts × D].
+                /// J d: change of u along the Newton direction, shape [contacts × D].
                 velocity_change: "m/s", |m| m.dimensions() * m.contacts.len();
-                /// Matrix of Newton's iteration, unsymmetric.
+                /// S + Jᵀ C J, unsymmetric.
                 matrix: "kg, kg·m, kg·m²", |m| kept(m, unsymmetric::entries(m.system.kept()));
-                /// Its right-hand side, then its solution, with ghost rows.
-                target: "N·s, m/s", |m| kept(m, unsymmetric::rows(m.system.kept()));
+                /// s + Jᵀ λ*, then the solution of the system; with ghost rows.
+                solution: "N·s, m/s", |m| kept(m, unsymmetric::rows(m.system.kept()));
                 /// v: velocities of the kept unknowns, shape [kept].
-                known: "m/s, rad/s", |m| kept(m, m.system.kept().size());
-                /// Direction of search, shape [kept].
+                iterate: "m/s, rad/s", |m| kept(m, m.system.kept().size());
+                /// d: Newton direction, shape [kept].
                 direction: "m/s, rad/s", |m| kept(m, m.system.kept().size());
-                /// S v − s: what contact has to balance, shape [kept].
-                imbalance: "N·s, N·m·s", |m| kept(m, m.system.kept().size());
-                /// How it changes along the direction, shape [kept].
-                imbalance_change: "N·s, N·m·s", |m| kept(m, m.system.kept().size());
-                /// S v − s − Jᵀ λ at a trial, shape [kept].
+                /// S v − s: residual without contact, shape [kept].
+                free_residual: "N·s, N·m·s", |m| kept(m, m.system.kept().size());
+                /// S d, shape [kept].
+                free_residual_change: "N·s, N·m·s", |m| kept(m, m.system.kept().size());
+                /// r = S v − s − Jᵀ λ at a trial, shape [kept].
                 residual: "N·s, N·m·s", |m| kept(m, m.system.kept().size());
-                /// 1 over the diagonal of S, shape [kept].
-                mobility: "1/kg, 1/(kg·m²)", |m| kept(m, m.system.kept().size());
-                /// The search of each lane, see `search::Search`, shape [6].
-                search: "1", |_| SEARCH;
+                /// 1/diag S, the metric of the residual, shape [kept].
+                inverse_diagonal: "1/kg, 1/(kg·m²)", |m| kept(m, m.system.kept().size());
+                /// The search of each lane, see `line_search::LineSearch`, shape [6].
+                line_search: "1", |_| LINE_SEARCH;
             }
         }
     };

@@ -105,8 +105,8 @@ impl Masses {
 
     /// Moment of inertia of a magnet without its ends about axis 0 (along the rod), 1 (up) or 2 (to its side) [kg m²].
     fn turn(&self, body: usize, axis: usize) -> f64 {
-        let rotation = if self.coordinates.dimensions == 2 { 2 } else { 3 + axis };
-        self.of[self.coordinates.bodies[body] + rotation]
+        let end = self.coordinates.bodies[body] + self.coordinates.body_size();
+        self.of[end - 3 + axis]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::StartPose;
 use crate::lanes::math::sin_cos;
-use crate::model::{Model, Shape, Sole};
+use crate::model::{ContactPoint, Frame, Model, Shape};
 use nalgebra::Vector3;
 
 /// A body that is laid down.
@@ -78,15 +78,19 @@ impl Laid for Straight<'_> {
 /// How far the centre line's head end lies above the lowest contact point; 0 without ground.
 fn straight_drop_m(model: &Model, angle_rad: f64) -> f64 {
     let (sin, cos) = sin_cos(angle_rad);
-    let below = |sole: &Sole| match *sole {
-        Sole::Foot { body, along_m, depth_m, .. } => {
-            let element = model.mesh.magnets[body].element;
-            let arc = &model.mesh.arc_m;
-            depth_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin
+    let arc = &model.mesh.arc_m;
+    let below = |point: &ContactPoint| {
+        let [along_m, up_m, _] = point.place_m;
+        match point.frame {
+            Frame::World => None,
+            Frame::Body(body) => {
+                let element = model.mesh.magnets[body].element;
+                Some(-up_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin)
+            }
+            Frame::Node(node) => Some(-up_m - arc[node] * sin),
         }
-        Sole::Node { node, depth_m } => depth_m - model.mesh.arc_m[node] * sin,
     };
-    model.mesh.soles.iter().map(below).reduce(f64::max).unwrap_or(0.0)
+    model.mesh.contact_points.iter().filter_map(below).reduce(f64::max).unwrap_or(0.0)
 }
 
 /// A body in the shape of the scene.
@@ -113,23 +117,27 @@ impl<'a> Bent<'a> {
 
     /// Height of the lowest contact point or corner of a section [m]; none without contact points.
     fn lowest_m(&self, model: &Model) -> Option<f64> {
-        let soles = model.mesh.soles.iter().map(|sole| self.sole_height_m(model, sole));
+        let points = model.mesh.contact_points.iter();
+        let points = points.filter_map(|point| self.point_height_m(model, point));
         let corners = (0..model.mesh.elements.len())
             .flat_map(|element| [element, element + 1].map(|node| (element, node)))
             .map(|(element, node)| self.section_height_m(model, element, node));
-        let lowest_sole_m = soles.reduce(f64::min)?;
-        Some(corners.fold(lowest_sole_m, f64::min))
+        let lowest_point_m = points.reduce(f64::min)?;
+        Some(corners.fold(lowest_point_m, f64::min))
     }
 
-    fn sole_height_m(&self, model: &Model, sole: &Sole) -> f64 {
-        match *sole {
-            Sole::Foot { body, along_m, depth_m, across_m } => {
+    /// Height of a contact point of the body [m].
+    fn point_height_m(&self, model: &Model, point: &ContactPoint) -> Option<f64> {
+        let [along_m, up_m, side_m] = point.place_m;
+        match point.frame {
+            Frame::World => None,
+            Frame::Body(body) => {
                 let element = model.mesh.magnets[body].element;
                 let (t, u) = (self.tangent(element), self.up(element));
-                let arm = t * along_m - u * depth_m + t.cross(&u) * across_m;
-                (self.middle(element) + arm).y
+                let arm = t * along_m + u * up_m + t.cross(&u) * side_m;
+                Some((self.middle(element) + arm).y)
             }
-            Sole::Node { node, depth_m } => self.node(node).y - depth_m,
+            Frame::Node(node) => Some(self.node(node).y + up_m),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The mesh: nodes, rod elements, rigid magnets. Section changes and magnet ends fall on nodes.
 
+use super::contact_point::{ContactPoint, Frame};
 use super::direction::{Direction, unit_vector};
 use super::{Plan, Scene, Segment, SegmentMagnet};
 use crate::magnetic::Cuboid;
@@ -13,8 +14,8 @@ pub struct Mesh {
     pub elements: Vec<Element>,
     /// The magnets, head first.
     pub magnets: Vec<MeshMagnet>,
-    /// Points that may touch the ground.
-    pub soles: Vec<Sole>,
+    /// Points of the underside that may touch the ground.
+    pub contact_points: Vec<ContactPoint>,
     /// Nodes held in place, from the head.
     pub fixed_nodes: usize,
 }
@@ -53,33 +54,6 @@ pub struct MeshMagnet {
     pub present: bool,
 }
 
-/// A point of the underside.
-///
-/// Toe and heel of a foot move rigidly with its magnet. Hung on the light elements at the ends of the
-/// foot instead, a point with friction above |e|/d would jam: pushing it back would press it down harder
-/// (the paradox of Painlevé), and explicit steps would chatter.
-#[derive(Clone, Copy, Debug)]
-pub enum Sole {
-    /// Toe or heel of a foot, rigidly with its magnet.
-    Foot {
-        /// The magnet.
-        body: usize,
-        /// Distance from its centre along the foot, towards the tail [m].
-        along_m: f64,
-        /// Distance below its centre [m].
-        depth_m: f64,
-        /// Distance to the side of its centre [m]; 0 in the plane.
-        across_m: f64,
-    },
-    /// Straight below a node of a rod; thin rods, so that the turn of the section does not matter.
-    Node {
-        /// The node.
-        node: usize,
-        /// Distance below it [m].
-        depth_m: f64,
-    },
-}
-
 impl MeshMagnet {
     /// Its cuboid.
     pub fn cuboid(&self) -> Cuboid {
@@ -114,7 +88,7 @@ impl Mesh {
             arc_m: vec![-behind_wall_m],
             elements: Vec::new(),
             magnets: Vec::new(),
-            soles: Vec::new(),
+            contact_points: Vec::new(),
             fixed_nodes: if plan.behind_wall_m.is_some() { 2 } else { 0 },
         };
         for (place, segment) in plan.segments.iter().enumerate() {
@@ -126,8 +100,8 @@ impl Mesh {
                 }
             }
         }
-        if mesh.soles.is_empty() && scene.ground.is_some() {
-            mesh.soles = mesh.soles_of_nodes();
+        if mesh.contact_points.is_empty() && scene.ground.is_some() {
+            mesh.contact_points = mesh.points_below_nodes();
         }
         mesh
     }
@@ -166,7 +140,7 @@ impl Mesh {
         self.magnets.push(mesh_magnet(magnet, element));
         self.add_elements(segment, behind_m, None);
         if segment.foot {
-            self.add_soles(segment, magnet.along_m, body, dimensions);
+            self.add_corners(segment, magnet.along_m, body, dimensions);
         }
     }
 
@@ -186,21 +160,19 @@ impl Mesh {
     }
 
     /// A toe and a heel in the plane, two of each in space.
-    fn add_soles(&mut self, foot: &Segment, along_m: f64, body: usize, dimensions: usize) {
+    fn add_corners(&mut self, foot: &Segment, along_m: f64, body: usize, dimensions: usize) {
         let corners: &[f64] = if dimensions == 2 { &[0.0] } else { &[-0.5, 0.5] };
         let depth_m = 0.5 * foot.thickness_m;
         for end_m in [-0.5 * foot.length_m, 0.5 * foot.length_m] {
-            self.soles.extend(corners.iter().map(|corner| Sole::Foot {
-                body,
-                along_m: end_m - along_m,
-                depth_m,
-                across_m: corner * foot.width_m,
+            self.contact_points.extend(corners.iter().map(|corner| ContactPoint {
+                frame: Frame::Body(body),
+                place_m: [end_m - along_m, -depth_m, corner * foot.width_m],
             }));
         }
     }
 
     /// One point below every node.
-    fn soles_of_nodes(&self) -> Vec<Sole> {
+    fn points_below_nodes(&self) -> Vec<ContactPoint> {
         let last = self.elements.len() - 1;
         let thickness_m = |node: usize| {
             let sections = [node.saturating_sub(1), node.min(last)];
@@ -210,7 +182,10 @@ impl Mesh {
                 .fold(0.0, f64::max)
         };
         (0..self.arc_m.len())
-            .map(|node| Sole::Node { node, depth_m: 0.5 * thickness_m(node) })
+            .map(|node| ContactPoint {
+                frame: Frame::Node(node),
+                place_m: [0.0, -0.5 * thickness_m(node), 0.0],
+            })
             .collect()
     }
 }

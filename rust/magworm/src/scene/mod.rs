@@ -14,6 +14,7 @@ mod accuracy;
 pub(crate) mod bends;
 mod body;
 mod check;
+mod contact_point;
 mod direction;
 mod drive;
 mod edit;
@@ -34,12 +35,13 @@ pub use crate::integrate::Integrator;
 pub use body::{
     Body, Clamp, Magnet, Material, Rod, RodMagnet, Segment, SegmentMagnet, Segments, Worm,
 };
+pub use contact_point::{ContactPoint, Frame};
 #[doc(hidden)] // for the project's own tests
 pub use direction::Direction;
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
 #[doc(hidden)] // for the project's own tests
-pub use mesh::{Element, Mesh, MeshMagnet, Sole};
+pub use mesh::{Element, Mesh, MeshMagnet};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub(crate) use segments::Plan;

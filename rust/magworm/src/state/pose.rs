@@ -50,7 +50,7 @@ impl<R: Row> Block<R> {
                 let dof = model.coordinates.bodies[body];
                 self.vector(&self.q, dof, axes, lane) + self.tangent(model, body, lane) * arm
             }
-            Anchor::Fixed => self.vector(&self.held, axes * node, axes, lane),
+            Anchor::Fixed => self.vector(&self.fixed_position, axes * node, axes, lane),
         }
     }
 

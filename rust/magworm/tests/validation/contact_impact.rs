@@ -19,7 +19,7 @@ fn upward(world: &World) -> f64 {
 }
 
 /// A block dropped flat from 10 mm lands without rebound: no node moves up by more than a fiftieth of the landing speed,
-/// what pads give back, and the kinetic energy is gone (1e-12 of what it had).
+/// what contact springs give back, and the kinetic energy is gone (1e-12 of what it had).
 #[test]
 fn validates_inelastic_landing() {
     let mut case = Case::new("inelastic_landing", "Landing without rebound")
@@ -28,7 +28,7 @@ fn validates_inelastic_landing() {
         .scene("incline-block", &[&ON_FLAT[..], &[("start.height_m", "0.01")]].concat())
         .note(
             "Blocks as above, dropped flat from 10 mm, for 0.5 s. Rebound is the fastest upward \
-            velocity of any node: the pads under the points give by micrometres and return at most \
+            velocity of any node: the contact springs under the points give by micrometres and return at most \
             a fiftieth of the 0.44 m/s.",
         );
     let (mut rebounds, mut remaining) = (Vec::new(), Vec::new());
@@ -128,11 +128,12 @@ fn validates_recovery_from_inside_the_ground() {
             }
             let mass_kg = world.mass_and_centre().0;
             let allowed = 0.5 * mass_kg * 0.01;
-            let pad = world.model.program.ground.expect("ground");
-            let give = mass_kg * 9.81 / pad.stiffness_n_m;
+            let law = world.model.program.contact.expect("ground");
+            let give = mass_kg * 9.81 / law.stiffness_n_m;
             // Gap at the start of the last step over τ; only deep ones are cut off at the recovery speed.
-            let lead_s = pad.damping_time_s.max(world.model.step_s);
-            let gaps = world.block.contact.bias.iter().step_by(2).map(|row| row[0] * lead_s);
+            let dissipation_time_s = law.dissipation_time_s.max(world.model.step_s);
+            let gaps =
+                world.block.contact.bias.iter().step_by(2).map(|row| row[0] * dissipation_time_s);
             let lowest = gaps.fold(f64::INFINITY, f64::min);
             println!(
                 "inside the ground by {depth} m, {base}: fastest {fastest:.3} m/s, kinetic {:.2} of allowed, left at {lowest:.1e} m, {:.1e} m/s",

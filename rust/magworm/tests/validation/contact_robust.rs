@@ -49,14 +49,14 @@ fn length(a: Along) -> f64 {
     a[0].hypot(a[1])
 }
 
-/// Friction of a contact point in the last step [N·s], and the impulse that the spring of its pad held before and
+/// Friction of a contact point in the last step [N·s], and the impulse that the tangential spring held before and
 /// after. The damper holds τ/Δt − 1 of what the spring lost.
 fn friction(world: &World, contact: usize) -> [Along; 3] {
     let (block, dimensions) = (&world.block, world.model.dimensions());
-    let before = along(world, |t| block.contact.warm[dimensions * contact + 1 + t][0]);
-    let after = along(world, |t| block.pad[(dimensions - 1) * contact + t][0]);
+    let before = along(world, |t| block.contact.warm_start[dimensions * contact + 1 + t][0]);
+    let after = along(world, |t| block.tangential_spring[(dimensions - 1) * contact + t][0]);
     let step_s = world.model.step_s;
-    let lead = world.model.program.ground.expect("ground").damping_time_s.max(step_s) / step_s;
+    let lead = world.model.program.contact.expect("ground").dissipation_time_s.max(step_s) / step_s;
     [std::array::from_fn(|t| after[t] - (lead - 1.0) * (before[t] - after[t])), before, after]
 }
 
@@ -80,7 +80,7 @@ fn coulomb(world: &World, start: &[[f64; 1]]) -> (u32, bool) {
     let law = world.model.scene.ground.as_ref().expect("ground");
     let (mut slid, mut beyond) = (0, false);
     for contact in 0..world.model.contacts.len() {
-        let normal = world.block.normal[contact][0];
+        let normal = world.block.normal_impulse[contact][0];
         let slides = start_speed(world, start, contact) > 1.000001 * law.transition_speed_m_s;
         slid += u32::from(slides && normal > 0.0);
         let coefficient = if slides { law.dynamic_friction } else { law.static_friction };
@@ -90,11 +90,11 @@ fn coulomb(world: &World, start: &[[f64; 1]]) -> (u32, bool) {
     (slid, beyond)
 }
 
-/// Energy that friction gave in the last step beyond what the springs of the pads had stored [J]:
+/// Energy that friction gave in the last step beyond what the tangential springs had stored [J]:
 /// Σ λ_t · u_t + Δ Σ f²/(2 k Δt²).
 fn energy_given_j(world: &World) -> f64 {
     let (dimensions, velocity) = (world.model.dimensions(), &world.block.contact.velocity);
-    let pad = world.model.program.ground.expect("ground");
+    let pad = world.model.program.contact.expect("ground");
     let compliance = 1.0 / (pad.stiffness_n_m * world.model.step_s.powi(2));
     (0..world.model.contacts.len())
         .map(|contact| {

@@ -50,7 +50,7 @@ fn validates_foot_rocks_on_its_edge() {
         .source("Rigid body about a fixed axis; friction that sticks and a pivot do no work")
         .scene("paper-3", &FOOT)
         .note(
-            "One rigid foot, 14 mm long and 7 mm high, from 45° to 11°. The pad under the edge gives by some \
+            "One rigid foot, 14 mm long and 7 mm high, from 45° to 11°. The contact spring under the edge gives by some \
             micrometres on the way.",
         );
     let steps = [4e-3, 2e-3, 1e-3, 5e-4];

@@ -25,7 +25,7 @@ fn validates_sliding_acceleration() {
             let measured = (world.drift()[0] - before) / 0.2;
             let alpha = f64::to_radians(angle);
             // A thick block's head end lifts off a little; D_f acts where it touches.
-            let closed = world.block.mode.iter().filter(|mode| mode[0] != 0.0).count();
+            let closed = world.block.contact_mode.iter().filter(|mode| mode[0] != 0.0).count();
             let held = closed as f64 * adhesion / world.mass_and_centre().0;
             let exact = G * (alpha.sin() - 0.6 * alpha.cos()) - held;
             if name == "7 mm" {
@@ -93,7 +93,7 @@ fn validates_axial_friction() {
         )
         .scene("incline-block", &edits)
         .note(
-            "T = 1 s, from rest. Static friction holds until a point moves faster than its pad gives, \
+            "T = 1 s, from rest. Static friction holds until a point moves faster than its contact spring gives, \
             2 mm/s; near the angle a block needs milliseconds to it.",
         );
     let mut figure =

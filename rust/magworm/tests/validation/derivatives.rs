@@ -2,7 +2,7 @@
 
 use crate::world::{ROD, World, scene};
 use magworm::Model;
-use magworm::internals::lanes::Scalar;
+use magworm::internals::lanes::{Plane, Scalar};
 use magworm::internals::{Anchor, kinematics};
 use magworm::scene::{Curvature, Scene};
 use nalgebra::{DMatrix, DVector};
@@ -70,7 +70,10 @@ fn nodes(world: &World, q: &[f64]) -> Vec<[f64; 2]> {
                 let arm = f64::from(side) * world.model.mesh.magnets[body].half_length_m;
                 [q[dof] + arm * q[dof + 2].cos(), q[dof + 1] + arm * q[dof + 2].sin()]
             }
-            Anchor::Fixed => [world.block.held[2 * node][0], world.block.held[2 * node + 1][0]],
+            Anchor::Fixed => [
+                world.block.fixed_position[2 * node][0],
+                world.block.fixed_position[2 * node + 1][0],
+            ],
         })
         .collect()
 }
@@ -149,8 +152,8 @@ fn validates_elastic_forces() {
     for (name, mut world) in bodies() {
         bend(&mut world);
         let q = unknowns(&world);
-        kinematics::<2, _>(Scalar, &world.model, &mut world.block);
-        world.assemble::<2>();
+        kinematics::<Plane, _>(Scalar, &world.model, &mut world.block);
+        world.assemble::<Plane>();
         let mut expected = DVector::zeros(q.len());
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             expected -= gradient * (strain.stiffness * strain.value);
@@ -178,8 +181,8 @@ fn validates_implicit_step() {
             world.block.v[k][0] = 0.1 * (1.3 + 3.1 * k as f64).sin();
             world.block.lagged[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
         }
-        kinematics::<2, _>(Scalar, &world.model, &mut world.block);
-        world.assemble::<2>();
+        kinematics::<Plane, _>(Scalar, &world.model, &mut world.block);
+        world.assemble::<Plane>();
         let matrix = expected_matrix(&world, &q, [3e-3 + 0.5 * dt, 0.51 * dt]);
         let taken_back = expected_matrix(&world, &q, [0.5 * dt, 0.5 * dt]);
         let masses = expected_matrix(&world, &q, [0.0; 2]);

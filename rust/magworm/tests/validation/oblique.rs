@@ -2,7 +2,7 @@
 
 use crate::space_world::Vector;
 use crate::world::{ROD, World, number};
-use magworm::internals::lanes::Scalar;
+use magworm::internals::lanes::{Plane, Scalar, Space};
 use magworm::internals::{Block, equations, kinematics};
 
 /// The drive magnet of the presets, upright, its centre at x = 0 and y = 0.
@@ -60,13 +60,13 @@ impl Body {
         block.right.iter_mut().for_each(|row| row[0] = 0.0);
         let acting = |k: usize, block: &Block<[f64; 1]>| block.right[dof + k][0] / model.step_s;
         if dimensions == 2 {
-            kinematics::<2, _>(Scalar, model, block);
-            equations::magnets::<2, _>(Scalar, model, block);
+            kinematics::<Plane, _>(Scalar, model, block);
+            equations::magnets::<Plane, _>(Scalar, model, block);
             let [x, y, turn] = [0, 1, 2].map(|k| acting(k, block));
             [Vector::new(x, y, 0.0), Vector::z() * turn]
         } else {
-            kinematics::<3, _>(Scalar, model, block);
-            equations::magnets::<3, _>(Scalar, model, block);
+            kinematics::<Space, _>(Scalar, model, block);
+            equations::magnets::<Space, _>(Scalar, model, block);
             [0, 3].map(|first| Vector::from_fn(|k, _| acting(first + k, block)))
         }
     }

@@ -5,6 +5,7 @@ use crate::space_frames::carried;
 use crate::space_world::Vector;
 use crate::world::{ROD, World};
 use magworm::internals::Anchor;
+use magworm::internals::lanes::Space;
 use magworm::scene::Curvature;
 use nalgebra::{DMatrix, DVector, Rotation3};
 use proptest::prelude::*;
@@ -240,7 +241,7 @@ fn expected_matrix(world: &World, strains: &[Strain], gradients: &[DVector<f64>]
 
 /// Errors of the forces and of the matrix of one body, as parts of the largest force and of the diagonal.
 fn errors(mut world: World) -> [f64; 2] {
-    world.assemble::<3>();
+    world.assemble::<Space>();
     let (strains, gradients) = (Shape::of(&world).strains(&world), gradients(&world));
     let count = world.model.coordinates.count;
     let mut expected = DVector::zeros(count);

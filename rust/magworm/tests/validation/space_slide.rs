@@ -63,7 +63,7 @@ fn validates_space_stopping_distance() {
         .scene("paper-3", &FOOT)
         .note(
             "v = 0.7 m/s at 10°, 55°, … from x. *Foot*: one rigid magnet on four corners; *rod*: eight soft \
-            elements on nine points. The last step may stop short by μ_d g Δt²; the pads under the points give by \
+            elements on nine points. The last step may stop short by μ_d g Δt²; the contact springs under the points give by \
             1e-6 m.",
         );
     let exact = 0.49 / (2.0 * DYNAMIC * G) - 0.5 * 0.7e-3;

@@ -3,7 +3,7 @@
 
 use crate::report::{Case, short};
 use crate::world::{World, number};
-use magworm::internals::Mode;
+use magworm::internals::ContactMode;
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 
@@ -85,7 +85,9 @@ impl Path {
         let mut sliding = 0;
         let instants = (0..INSTANTS).map(|_| {
             world.run(0.01);
-            sliding += usize::from(world.block.mode.iter().any(|mode| mode[0] == Mode::SLIDE));
+            sliding += usize::from(
+                world.block.contact_mode.iter().any(|mode| mode[0] == ContactMode::Slide.code()),
+            );
             world.places()
         });
         (instants.collect(), sliding)

@@ -1,7 +1,7 @@
 //! What a test sets and reads of a world in space.
 
 use crate::world::World;
-use magworm::internals::lanes::Scalar;
+use magworm::internals::lanes::{Scalar, Space};
 use magworm::internals::{Anchor, kinematics};
 use nalgebra::Vector3;
 
@@ -31,7 +31,7 @@ impl World {
     pub fn refresh(&mut self) {
         // Frames of an environment that does not run stay as they are.
         self.block.running[0][0] = 1.0;
-        kinematics::<3, _>(Scalar, &self.model, &mut self.block);
+        kinematics::<Space, _>(Scalar, &self.model, &mut self.block);
     }
 
     /// Up direction of an element.

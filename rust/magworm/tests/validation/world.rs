@@ -1,6 +1,6 @@
 //! One environment whose state a test may set and read freely.
 
-use magworm::internals::lanes::Scalar;
+use magworm::internals::lanes::{Dim, Scalar};
 use magworm::internals::{Anchor, Block, Draws, advance, equations, reset, scene_start};
 use magworm::scene::Scene;
 use magworm::{Model, StartPose, Status};
@@ -109,7 +109,7 @@ impl World {
     }
 
     /// The equations of a step in D dimensions, without contact, from the kinematics as they stand.
-    pub fn assemble<const D: usize>(&mut self) {
+    pub fn assemble<D: Dim>(&mut self) {
         let (model, block) = (&self.model, &mut self.block);
         equations::inertia::<D, _>(Scalar, model, block);
         equations::gravity::<D, _>(Scalar, model, block);
@@ -182,7 +182,7 @@ impl World {
 
     /// Sum of the normal impulses of the last step over the step [N].
     pub fn normal_force(&self) -> f64 {
-        self.block.normal.iter().map(|row| row[0]).sum::<f64>() / self.model.step_s
+        self.block.normal_impulse.iter().map(|row| row[0]).sum::<f64>() / self.model.step_s
     }
 
     /// Greatest speed of a node along an axis [m/s].

@@ -1,0 +1,106 @@
+//! Contact points at the start of a step: lever arm r, gap φ, velocity bias û, and whether they are active.
+//!
+//! ```text
+//! û = (φ/τ) n + ½ Δt ω × (ω × r)      φ/Δt above the surface
+//! ```
+
+use super::jacobian::{arc_velocity, point_velocity};
+use super::law::ContactLaw;
+use super::{ContactMode, ContactVector, surface};
+use crate::lanes::{Components, Dim, Isa, Real};
+use crate::model::{ContactPair, Frame, Model};
+use crate::state::Block;
+
+/// Largest speed at which a point that starts inside a surface is pushed out [m/s].
+const MAX_CORRECTIVE_SPEED_M_S: f64 = 0.1;
+
+/// Fills lever arms and biases of all contact points, and which of them are active.
+pub fn detect<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let Some(parameters) = &model.program.contact else { return };
+    isa.vectorize(
+        #[inline(always)]
+        || {
+            let law = ContactLaw::new(isa, parameters, model.step_s, block);
+            for (c, pair) in model.contacts.iter().enumerate() {
+                detect_point::<D, I>(isa, &law, block, c, pair, model.step_s);
+            }
+        },
+    );
+}
+
+#[inline(always)]
+fn detect_point<D: Dim, I: Isa>(
+    isa: I,
+    law: &ContactLaw<I::F>,
+    block: &mut Block<I::Row>,
+    c: usize,
+    pair: &ContactPair,
+    step_s: f64,
+) {
+    let (arm, place) = arm_and_place::<D, I>(isa, block, pair);
+    arm.store(isa, &mut block.contact.arm[D::AXES * c..]);
+    let (gap, frame) = surface::evaluate::<D, I::F>(pair.surface, place);
+    let inside = gap.lt(isa.splat(0.0));
+    let time_s = I::F::select(inside, law.dissipation_time_s, isa.splat(step_s));
+    let approach = (gap / time_s).max(isa.splat(-MAX_CORRECTIVE_SPEED_M_S));
+    let (first, rigid) = (pair.dof, pair.rigid);
+    let arc = arc_velocity::<D, I>(isa, &block.v, first, rigid, arm, step_s);
+    let mut bias: ContactVector<D, I::F> = frame.components(arc);
+    bias.normal = bias.normal + approach;
+    let velocity = point_velocity::<D, I>(isa, &block.v, first, rigid, arm);
+    let u: ContactVector<D, I::F> = frame.components(velocity);
+    // A velocity that is not a number compares as false, so it makes no point active.
+    let closed = !isa.load(&block.contact_mode[c]).eq(isa.splat(ContactMode::Open.code()));
+    let active = closed | (u.normal + bias.normal).le(isa.splat(0.0));
+    let work = &mut block.contact;
+    bias.store(isa, &mut work.bias, c);
+    isa.store(I::F::select(active, isa.splat(1.0), isa.splat(0.0)), &mut work.active[c]);
+}
+
+/// Lever arm of a contact point from its body, and its place in the world [m].
+#[inline(always)]
+fn arm_and_place<D: Dim, I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    pair: &ContactPair,
+) -> (D::Vector<I::F>, D::Vector<I::F>) {
+    let place_m = pair.point.place_m;
+    match pair.point.frame {
+        Frame::Body(body) => {
+            let axes = D::Frame::load(isa, &block.frame[D::Frame::<I::F>::COUNT * body..]);
+            let arm = D::to_world(axes, place_m);
+            (arm, D::Vector::load(isa, &block.q[pair.dof..]) + arm)
+        }
+        Frame::World => {
+            let mut place = D::Vector::splat(isa.splat(0.0));
+            for axis in 0..D::AXES {
+                place[axis] = isa.splat(place_m[axis]);
+            }
+            (D::Vector::splat(isa.splat(0.0)), place)
+        }
+        Frame::Node(node) => {
+            let mut place = D::Vector::load(isa, &block.node[D::AXES * node..]);
+            let mut arm = D::Vector::splat(isa.splat(0.0));
+            if pair.rigid {
+                arm = place - D::Vector::load(isa, &block.q[pair.dof..]);
+            }
+            for axis in 0..D::AXES {
+                place[axis] = place[axis] + place_m[axis];
+            }
+            (arm, place)
+        }
+    }
+}
+
+/// Velocity of a contact point at the start of the step, without its bias.
+#[inline(always)]
+pub(super) fn start_velocity<D: Dim, I: Isa>(
+    isa: I,
+    block: &Block<I::Row>,
+    c: usize,
+    pair: &ContactPair,
+) -> ContactVector<D, I::F> {
+    let arm = D::Vector::load(isa, &block.contact.arm[D::AXES * c..]);
+    let velocity = point_velocity::<D, I>(isa, &block.v, pair.dof, pair.rigid, arm);
+    surface::frame(pair.surface).components(velocity)
+}

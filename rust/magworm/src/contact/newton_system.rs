@@ -1,0 +1,58 @@
+//! The linear system of one Newton iteration: (S + Jᵀ C J) v = s + Jᵀ λ*, with λ* and C of all points.
+
+use super::hessian::ContactHessian;
+use super::jacobian::{add_block, add_force};
+use super::surface;
+use crate::lanes::{Components, Dim, Isa, unsymmetric};
+use crate::model::Model;
+use crate::state::Block;
+
+/// Solves the system into `contact.solution`.
+pub(super) fn solve_linearised<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    copy(isa, model, block);
+    isa.vectorize(
+        #[inline(always)]
+        || add_contacts::<D, I>(isa, model, block),
+    );
+    eliminate(isa, model, block);
+}
+
+/// Solves the system without contacts, S v = s.
+pub(super) fn solve_contact_free<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    copy(isa, model, block);
+    eliminate(isa, model, block);
+}
+
+fn copy<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let band = model.system.kept();
+    let symmetric = model.system.kept_entries(&block.matrix);
+    unsymmetric::expand(isa, band, symmetric, &mut block.contact.matrix);
+    let ghosts = band.half_bandwidth();
+    for (row, &unknown) in model.system.unknowns().iter().enumerate() {
+        block.contact.solution[ghosts + row] = block.right[unknown];
+    }
+}
+
+fn eliminate<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let (band, body) = (model.system.kept(), model.system.body());
+    unsymmetric::solve(isa, band, body, &mut block.contact.matrix, &mut block.contact.solution);
+    block.counters.factorisations += 1;
+}
+
+#[inline(always)]
+fn add_contacts<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    let band = model.system.kept();
+    let ghosts = band.half_bandwidth();
+    let stride = unsymmetric::row_length(ghosts) - 1;
+    for (c, pair) in model.contacts.iter().enumerate() {
+        let hessian = ContactHessian::<D, I::F>::load(isa, &block.contact.hessian, c);
+        let arm = D::Vector::load(isa, &block.contact.arm[D::AXES * c..]);
+        let frame = surface::frame(pair.surface);
+        let force = frame.vector(hessian.impulse);
+        let right = &mut block.contact.solution[ghosts + pair.row..];
+        add_force::<D, I>(isa, right, pair.rigid, arm, force);
+        let place = [unsymmetric::at(band, pair.row, pair.row), stride];
+        let columns = frame.matrix(hessian.columns());
+        add_block::<D, I>(isa, &mut block.contact.matrix, place, pair.rigid, arm, &columns);
+    }
+}

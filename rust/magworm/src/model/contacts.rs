@@ -1,0 +1,123 @@
+//! Where contact may happen: points, the surfaces that they press on, and the parameters of the contact law.
+
+use super::coordinates::{Anchor, Coordinates};
+use crate::lanes::chain::Chain;
+use crate::scene::{ContactPoint, Frame, Ground, Mesh, MeshMagnet, Scene};
+
+/// Shape of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// The plane y = 0 with the normal +y.
+    FlatGround,
+}
+
+/// A contact point, and the surface that it may press on.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactPair {
+    /// The point.
+    pub point: ContactPoint,
+    /// The surface.
+    pub surface: Surface,
+    /// What the surface moves with.
+    pub surface_frame: Frame,
+    /// First unknown that the point moves with: x of its magnet, or of its node.
+    pub dof: usize,
+    /// Row of that unknown among those that the contact solve keeps.
+    pub row: usize,
+    /// Whether the point turns with a magnet.
+    pub rigid: bool,
+}
+
+/// Parameters of the contact law, see [`crate::contact`].
+#[derive(Clone, Copy, Debug)]
+pub struct ContactParameters {
+    /// μ_s.
+    pub static_friction: f64,
+    /// μ_d.
+    pub dynamic_friction: f64,
+    /// v_d [m/s].
+    pub transition_speed_m_s: f64,
+    /// D_f [N].
+    pub adhesion_n: f64,
+    /// Stiffness k of the contact spring [N/m].
+    pub stiffness_n_m: f64,
+    /// Dissipation time τ: damping over stiffness [s].
+    pub dissipation_time_s: f64,
+}
+
+/// Compression of the contact spring under the weight of the whole body, as a share of the body's thickness.
+const STATIC_COMPRESSION: f64 = 1e-3;
+/// Largest effective mass of a contact, in masses of the body: with more a long step would find no solution.
+const MAX_EFFECTIVE_MASS: f64 = 100.0;
+
+impl ContactParameters {
+    /// Those of a scene's ground. τ is twice that of critical damping under the whole body, 4 √(m/k), so that nothing
+    /// rebounds.
+    pub(super) fn new(ground: &Ground, scene: &Scene, mesh: &Mesh) -> Self {
+        let thickness_m = mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max);
+        let (mass_kg, compression_m) =
+            (body_mass_kg(scene, mesh), STATIC_COMPRESSION * thickness_m);
+        let stiffness_n_m = mass_kg * 9.81 / compression_m;
+        let dissipation_time_s = 4.0 * (mass_kg / stiffness_n_m).sqrt();
+        let step_s = scene.solver.step_s;
+        let stiffest_n_m = MAX_EFFECTIVE_MASS * mass_kg / (step_s * dissipation_time_s.max(step_s));
+        // A foot has a toe and a heel in the plane, two of each in space.
+        let share = 1.0 / (scene.dimensions - 1) as f64;
+        Self {
+            static_friction: ground.static_friction,
+            dynamic_friction: ground.dynamic_friction,
+            // Slower than this a point that slides cannot be told from one whose spring gives.
+            transition_speed_m_s: ground
+                .transition_speed_m_s
+                .max(compression_m / dissipation_time_s),
+            adhesion_n: share * ground.adhesion_n,
+            stiffness_n_m: share * stiffness_n_m.min(stiffest_n_m),
+            dissipation_time_s,
+        }
+    }
+}
+
+/// The pairs that a scene with ground has: its contact points that can move, with the ground.
+pub(super) fn contact_pairs(
+    points: &[ContactPoint],
+    coordinates: &Coordinates,
+    system: &Chain,
+) -> Vec<ContactPair> {
+    let pair = |&point: &ContactPoint| {
+        let (dof, rigid) = moves_with(point.frame, coordinates)?;
+        let row = system.place(dof).expect("what touches the ground is kept");
+        let (surface, surface_frame) = (Surface::FlatGround, Frame::World);
+        Some(ContactPair { point, surface, surface_frame, dof, row, rigid })
+    };
+    points.iter().filter_map(pair).collect()
+}
+
+/// First unknown that a frame moves with, and whether it turns with a magnet; none where it stands still.
+fn moves_with(frame: Frame, coordinates: &Coordinates) -> Option<(usize, bool)> {
+    match frame {
+        Frame::World => None,
+        Frame::Body(body) => Some((coordinates.bodies[body], true)),
+        Frame::Node(node) => match coordinates.anchors[node] {
+            Anchor::Free { dof } => Some((dof, false)),
+            Anchor::Rigid { body, .. } => Some((coordinates.bodies[body], true)),
+            Anchor::Fixed => None,
+        },
+    }
+}
+
+fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
+    let rubber_m3: f64 = (0..mesh.elements.len()).map(|e| mesh.volume_m3(e)).sum();
+    scene.material.density_kg_m3 * rubber_m3 + magnets_kg(mesh)
+}
+
+/// Mass of all magnets: one product for those that are alike.
+fn magnets_kg(mesh: &Mesh) -> f64 {
+    let mut left_kg: Vec<f64> = mesh.magnets.iter().map(MeshMagnet::mass_kg).collect();
+    let mut total_kg = 0.0;
+    while let Some(&mass_kg) = left_kg.first() {
+        let before = left_kg.len();
+        left_kg.retain(|other_kg| *other_kg != mass_kg);
+        total_kg += mass_kg * (before - left_kg.len()) as f64;
+    }
+    total_kg
+}
