@@ -40,7 +40,7 @@ pub enum PairModel {
     /// Closed-form field, integrated over the charged faces, in the plane.
     Cuboid(PlanarPair),
     /// The same with a body magnet whose remanence leans.
-    ObliqueCuboid(ObliquePair),
+    ObliqueCuboid(Box<ObliquePair>),
     /// Point dipoles in the plane.
     Dipole(PlanarDipole),
     /// Closed-form field, integrated over the charged faces, in space; both remanences are 1 T.
@@ -90,7 +90,7 @@ impl PairModel {
                 Direction::Up => Self::Cuboid(PlanarPair::new(source, body, order)),
                 Direction::Oblique(_) => {
                     let [source, body] = units();
-                    Self::ObliqueCuboid(ObliquePair::new(&source, &body, order))
+                    Self::ObliqueCuboid(Box::new(ObliquePair::new(&source, &body, order)))
                 }
             },
             (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(source, body)),
