@@ -93,9 +93,11 @@ pub fn read<T: Entry>(name: &str, value: &Bound<'_, PyAny>, shape: &[usize]) -> 
     }
     let mut numbers = memory::reserved(name, array.len())?;
     let readonly = array.try_readonly()?;
-    match readonly.as_slice() {
-        Ok(contiguous) => numbers.extend_from_slice(contiguous),
-        Err(_) => numbers.extend(readonly.as_array().iter()),
+    let view = readonly.as_array();
+    // NumPy calls columns in a row contiguous, too; a view counts rows alone.
+    match view.as_slice() {
+        Some(rows) => numbers.extend_from_slice(rows),
+        None => numbers.extend(view.iter()),
     }
     Ok(numbers)
 }
