@@ -195,11 +195,13 @@ FIRST = """
 import os, signal, sys, threading, time
 import numpy as np
 import magworm_gym, magworm_gym.magnet
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in what a shell starts in the background
 scene = magworm_gym.Scene.preset("belt-125")
+points = np.ones((20_000_000, 3))
 calls = {
     "record": lambda: magworm_gym.record_scenes([scene], 10_000.0, 1.0, threads=1),
     "advance": lambda: magworm_gym.Batch(scene, 9, threads=1).advance(100_000.0),
-    "field": lambda: magworm_gym.magnet.field((1, 1, 1), np.ones((20_000_000, 3))),
+    "field": lambda: magworm_gym.magnet.field((1, 1, 1), points),
 }
 threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
 began = time.monotonic()
