@@ -37,13 +37,13 @@ def test_the_bound_of_the_force_holds_at_every_pose():
     pair = pair_of(Scene.preset("paper-3"))
     draws = np.random.default_rng(3)
     places, turns = draws.uniform(-0.12, 0.12, (2000, 3)), draws.normal(size=(2000, 4))
-    force, _ = magnet.wrench(pair.drive_m, pair.body_m, places, turns)
     nearest = np.linalg.norm(places, axis=-1) - pair.half_diagonals_m
     apart = nearest > 0.0
+    force, _ = magnet.wrench(pair.drive_m, pair.body_m, places[apart], turns[apart])
     bounds = np.array([pair.force_bound_n(distance) for distance in nearest[apart]])
-    assert (np.linalg.norm(force[apart], axis=-1) < bounds).all()
+    assert (np.linalg.norm(force, axis=-1) < bounds).all()
     # The bound is not idle: far away it is within a factor of ten for some pose.
-    assert (np.linalg.norm(force[apart], axis=-1) > 0.1 * bounds).any()
+    assert (np.linalg.norm(force, axis=-1) > 0.1 * bounds).any()
 
 
 def test_a_block_is_out_of_reach_only_where_all_its_lanes_are():

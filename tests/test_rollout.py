@@ -118,7 +118,7 @@ def test_a_batch_goes_on_from_the_end_of_its_rollout() -> None:
     [
         ((3, 4), None, r"actions have shape \(3, 4\); expected \(T, K, 3\)"),
         ((0, 4, 3), None, r"expected \(T, K, 3\), T and K 1 or more"),
-        ((5, 4, 2), None, r"actions have shape \(5, 4, 2\); expected \(5, 4, 3\)"),
+        ((5, 4, 2), None, r"actions have shape \(5, 4, 2\); expected \(T, K, 3\)"),
         ((5, 3, 3), None, "actions have 3 plans for 4 environments; start must name"),
         ((5, 3, 3), 4, "start is 4; allowed: indices from 0 to 3"),
         ((5, 3, 3), [0, -1, 1], r"start is \[0, -1, 1\]; allowed: indices from 0 to 3"),

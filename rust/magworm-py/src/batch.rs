@@ -10,6 +10,7 @@ use crate::rollout::{Trajectories, rollout};
 use crate::scene::Scene;
 use crate::specification::specifications;
 use crate::start::starts;
+use magworm::internals::Pool;
 use magworm::{LaneChoice, Model, Status, StepOutput, View, observe};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
@@ -51,12 +52,14 @@ impl Batch {
         let count = whole("num_envs", num_envs, 1..=MOST)?;
         let names = [("wide", LaneChoice::Wide), ("scalar", LaneChoice::Scalar)];
         let (lanes, threads) = (word("lanes", lanes, names)?, arguments::threads(threads)?);
+        // First of all, so that what threads take is gone when the room is measured.
+        let pool = scene.py().detach(|| Pool::started(threads));
         check_room(
             &format!("num_envs is {count}, which"),
             magworm::Batch::bytes(&model, count, lanes),
         )?;
         let batch = interruptible(scene.py(), |interruption| {
-            magworm::Batch::new_unless(interruption, model.clone(), count, lanes, threads)
+            magworm::Batch::new_unless(interruption, model.clone(), count, lanes, pool)
         })?;
         Ok(Self { model, count, lanes, threads, batch: RwLock::new(batch) })
     }

@@ -5,7 +5,7 @@ mod scenes;
 
 use bits_world::{MISHAP, World, run};
 use magworm::LaneChoice::{Scalar, Wide};
-use magworm::internals::{Watch, record};
+use magworm::internals::{Pool, Watch, record};
 use magworm::{
     Batch, Interrupted, Interruption, LaneChoice, Model, Plan, RolloutOutput, Start, StepOutput,
     observe,
@@ -135,7 +135,7 @@ fn copies_and_batches_that_were_stopped_are_none() {
     let model = model("three magnets");
     let mut yes = || true;
     let stopped = &Interruption::new(&mut yes);
-    assert!(Batch::new_unless(stopped, Arc::clone(&model), 100, Wide, Some(2)).is_err());
+    assert!(Batch::new_unless(stopped, Arc::clone(&model), 100, Wide, Pool::new(Some(2))).is_err());
     assert!(aged(&model, Wide, 2).batch.copies_unless(stopped, &[1, 1, 1]).is_err());
     let (batch, mut poses) = (aged(&model, Wide, 2).batch, vec![0.0; 3 * ROBOTS.len()]);
     assert!(

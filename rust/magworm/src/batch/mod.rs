@@ -88,7 +88,8 @@ impl Batch {
     /// `count` environments at rest in the scene's start pose; each waits for its first
     /// [`reset`](Self::reset). `threads`: none for one per core.
     pub fn new(model: Arc<Model>, count: usize, lanes: LaneChoice, threads: Option<usize>) -> Self {
-        let made = Self::new_unless(&Interruption::never(), model, count, lanes, threads);
+        let pool = Pool::new(threads);
+        let made = Self::new_unless(&Interruption::never(), model, count, lanes, pool);
         made.expect("nothing stops it")
     }
 
@@ -97,13 +98,12 @@ impl Batch {
     /// # Errors
     /// The call was stopped.
     pub fn new_unless(
-        interruption: &Interruption<'_>,
+        on: &Interruption<'_>,
         model: Arc<Model>,
         count: usize,
         lanes: LaneChoice,
-        threads: Option<usize>,
+        pool: Pool,
     ) -> Result<Self, Interrupted> {
-        let (pool, on) = (Pool::new(threads), interruption);
         let blocks = match (lanes, model.scene.solver.precision) {
             (LaneChoice::Wide, Precision::Double) => {
                 Blocks::Wide(new_blocks(&model, count, &pool, on)?)

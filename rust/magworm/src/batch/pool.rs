@@ -33,6 +33,15 @@ impl Pool {
         Self { threads, running: Mutex::new(Running { owner: std::process::id(), pool: None }) }
     }
 
+    /// A pool whose threads run already and have taken the memory that threads take.
+    pub fn started(threads: Option<usize>) -> Self {
+        let pool = Self::new(threads);
+        if let Some(running) = pool.get() {
+            running.broadcast(|_| ());
+        }
+        pool
+    }
+
     /// Number of threads.
     pub fn threads(&self) -> usize {
         self.threads

@@ -8,9 +8,9 @@
 //! The layout is a sum over the declaration of the rows ([`ROWS`]): a row more, one renamed or moved gives another.
 //! A snapshot is checked whole before anything is changed.
 
-use super::Batch;
 use super::check::{SnapshotError, check};
 use super::column::{Column, WORD, column_words, number};
+use super::{Batch, Pool};
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::{Number, Row};
 use crate::model::{Model, ROWS, Role, Sum};
@@ -149,8 +149,8 @@ impl Batch {
         environments: &[usize],
     ) -> Result<Self, Interrupted> {
         let (model, count) = (Arc::clone(self.model()), environments.len());
-        let (lanes, threads) = (self.lanes(), Some(self.threads()));
-        let mut batch = Self::new_unless(interruption, model, count, lanes, threads)?;
+        let (lanes, pool) = (self.lanes(), Pool::new(Some(self.threads())));
+        let mut batch = Self::new_unless(interruption, model, count, lanes, pool)?;
         batch.read_columns(interruption, |copy, state| {
             self.write_column(environments[copy], state);
         })?;
