@@ -4,7 +4,7 @@
 //! committed is infinite or no number. After the last step of a call the robot must be sound where it is now, and slow:
 //! none is rewarded for a control step that it ended broken.
 
-use crate::elastic;
+use crate::elastic::{self, Rod};
 use crate::lanes::{Dim, Isa, Mask, Number, Real, Row};
 use crate::model::Model;
 use crate::state::{Block, Status};
@@ -30,7 +30,7 @@ pub fn may_go_on<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row
 
 /// Marks the lanes that are no longer sound where they are now.
 #[inline(always)]
-pub fn stop_unsound<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn stop_unsound<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     elastic::place::<D, I>(isa, model, block);
     let intact = is_intact(isa, model, block);
     let above = is_above_ground::<D, I>(isa, model, block);

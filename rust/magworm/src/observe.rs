@@ -23,9 +23,9 @@ pub fn action_size(model: &Model) -> usize {
 
 /// Number of observation components.
 pub fn size(model: &Model) -> usize {
-    let per_magnet = if model.dimensions() == 2 { 6 } else { 12 };
     let Sizes { observation, action, .. } = sizes(model);
-    per_magnet * model.magnets() + observation + action
+    // Pose and velocity of each magnet.
+    2 * model.sizes().body() * model.magnets() + observation + action
 }
 
 /// A scene without actuators is seen as one whose stage stands still: an agent finds all else in its place.

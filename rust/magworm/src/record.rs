@@ -102,9 +102,13 @@ impl Recording {
 
     /// Body magnets, drive magnets and nodes, each with the numbers of one at an instant.
     fn sizes(model: &Model, watch: Watch) -> [[usize; 2]; 3] {
-        let [pose, place, axes] = if model.dimensions() == 2 { [3, 2, 2] } else { [7, 4, 3] };
+        let sizes = model.sizes();
         let nodes = if watch.nodes { model.nodes() } else { 0 };
-        [[model.magnets(), pose], [model.program.drive_magnets(), place], [nodes, axes]]
+        [
+            [model.magnets(), sizes.pose()],
+            [model.program.drive_magnets(), sizes.stage],
+            [nodes, sizes.axes],
+        ]
     }
 
     fn with_room(model: &Model, watch: Watch) -> Self {

@@ -6,10 +6,10 @@ pub use steps::Steps;
 
 use crate::actuate;
 use crate::contact;
-use crate::elastic;
+use crate::elastic::{self, Rod};
 use crate::equations;
 use crate::guard;
-use crate::lanes::{Dim, Isa, Number, Plane, Real, Row, Space};
+use crate::lanes::{Isa, Number, Plane, Real, Row, Space};
 use crate::model::{Model, Phase};
 use crate::state::{Block, Status};
 
@@ -32,7 +32,7 @@ fn mark_running<R: Row>(block: &mut Block<R>) {
 }
 
 #[inline(always)]
-fn advance_in<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
+fn advance_in<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     for _ in 0..steps {
         step::<D, I>(isa, model, block);
     }
@@ -43,7 +43,7 @@ fn advance_in<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, 
 }
 
 /// One solver step in D dimensions.
-fn step<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+fn step<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for &phase in &model.phases {
         run::<D, I>(isa, model, block, phase);
     }
@@ -61,7 +61,7 @@ pub fn run_phase<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase
 
 /// One phase in D dimensions, compiled for the instruction set on its own: as one function all phases would take a
 /// compiler minutes. Contact compiles its parts one by one.
-fn run<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
+fn run<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     match phase {
         Phase::Kinematics => isa.vectorize(
             #[inline(always)]
@@ -112,7 +112,7 @@ fn solve<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 /// q ← q + Δt v⁺ in the lanes that run and stay sound; the others keep their last sound state. In space the
 /// rotations of q are but integrals of their rates; the frames turn by them.
 #[inline(always)]
-fn commit<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+fn commit<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let go = guard::may_go_on::<D, I>(isa, model, block);
     for lane in 0..I::Row::LANES {
         block.step_count[lane] += u64::from(block.running[0][lane].f64() == 1.0);
@@ -127,8 +127,6 @@ fn commit<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         isa.store(I::F::select(go, next, v), &mut speeds[dof]);
         isa.store(I::F::select(go, q + next * model.step_s, q), &mut places[dof]);
     }
-    if D::AXES == 3 {
-        elastic::rotate_frames(isa, model, block, go);
-    }
+    D::rotate_frames(isa, model, block, go);
     equations::carry::<D, I>(isa, model, block, go);
 }

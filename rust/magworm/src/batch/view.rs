@@ -2,7 +2,7 @@
 
 use super::wrenches::magnet_wrenches;
 use crate::actuator::{Actuator, Stage, states};
-use crate::lanes::{Number, Row};
+use crate::lanes::{Dimensions, Number, Row};
 use crate::model::Model;
 use crate::observe;
 use crate::state::{Block, Pose, Status, Twist};
@@ -28,7 +28,6 @@ trait LaneView {
     fn pose(&self, model: &Model, magnet: usize, lane: usize) -> Pose;
     fn velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist;
     fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
-    fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
     fn actuators(&self, lane: usize) -> Vec<f64>;
     fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3];
     fn steps(&self, lane: usize) -> u64;
@@ -50,9 +49,6 @@ impl<R: Row> LaneView for Block<R> {
     }
     fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
         Block::planar_pose(self, model, magnet, lane)
-    }
-    fn planar_velocity(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
-        Block::planar_velocity(self, model, magnet, lane)
     }
     fn actuators(&self, lane: usize) -> Vec<f64> {
         self.stage.iter().map(|row| row[lane].f64()).collect()
@@ -105,14 +101,11 @@ impl View<'_> {
     /// Writes the velocity of a body magnet: in the plane vx, vy [m/s] and rate [rad/s], in space vx, vy, vz [m/s]
     /// and the angular velocity about x, y, z [rad/s].
     pub fn write_magnet_velocity(&self, magnet: usize, row: &mut [f64]) {
-        if self.model.dimensions() == 2 {
-            row.copy_from_slice(&self.block.planar_velocity(self.model, magnet, self.lane));
-            return;
-        }
         let Twist { linear_m_s, angular_rad_s } =
             self.block.velocity(self.model, magnet, self.lane);
-        row[..3].copy_from_slice(linear_m_s.as_slice());
-        row[3..].copy_from_slice(angular_rad_s.as_slice());
+        let Dimensions { axes, rotations, .. } = self.model.sizes();
+        row[..axes].copy_from_slice(&linear_m_s.as_slice()[..axes]);
+        row[axes..].copy_from_slice(&angular_rad_s.as_slice()[3 - rotations..]);
     }
     /// Centre of a drive magnet: x, y, in space also z [m] and yaw [rad]; none where the scene has no drive.
     pub fn drive_place(&self, drive_magnet: usize) -> Option<Vec<f64>> {
@@ -140,11 +133,11 @@ impl View<'_> {
     }
     /// A row of its own, see [`Self::write_node`].
     pub fn node_m(&self, node: usize) -> Vec<f64> {
-        self.row([2, 3], |row| self.write_node(node, row))
+        row(self.model.dimensions(), |row| self.write_node(node, row))
     }
     /// A row of its own, see [`Self::write_magnet_pose`].
     pub fn magnet_pose(&self, magnet: usize) -> Vec<f64> {
-        self.row([3, 7], |row| self.write_magnet_pose(magnet, row))
+        row(self.model.sizes().pose(), |row| self.write_magnet_pose(magnet, row))
     }
     /// Force [N] and torque about its middle [N·m] of drive and field on each body magnet, one after another, as the next step
     /// takes them: (F_x, F_y, T_z) in the plane, (F_x, F_y, F_z, T_x, T_y, T_z) in space.
@@ -154,12 +147,7 @@ impl View<'_> {
 
     /// A row of its own, see [`Self::write_magnet_velocity`].
     pub fn magnet_velocity(&self, magnet: usize) -> Vec<f64> {
-        self.row([3, 6], |row| self.write_magnet_velocity(magnet, row))
-    }
-    fn row(&self, [plane, space]: [usize; 2], write: impl Fn(&mut [f64])) -> Vec<f64> {
-        let mut row = vec![0.0; if self.model.dimensions() == 2 { plane } else { space }];
-        write(&mut row);
-        row
+        row(self.model.sizes().body(), |row| self.write_magnet_velocity(magnet, row))
     }
     /// Mode and normal impulse of a contact point in the last step, and what its tangential spring holds along the
     /// ground [N·s].
@@ -189,4 +177,10 @@ impl View<'_> {
     pub fn observe(&self, row: &mut [f32]) {
         self.block.observe(self.model, self.lane, row);
     }
+}
+
+fn row(width: usize, write: impl Fn(&mut [f64])) -> Vec<f64> {
+    let mut row = vec![0.0; width];
+    write(&mut row);
+    row
 }

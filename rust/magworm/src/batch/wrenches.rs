@@ -1,7 +1,7 @@
 //! Forces on body magnets, as a step takes them.
 
 use crate::lanes::{Number, Row, Scalar};
-use crate::model::{Model, Phase, body_size};
+use crate::model::{Model, Phase};
 use crate::reset::apply_parameters;
 use crate::state::Block;
 use crate::step::run_phase;
@@ -20,7 +20,7 @@ pub(super) fn magnet_wrenches<R: Row>(model: &Model, block: &Block<R>, lane: usi
     run_phase(Scalar, model, &mut copy, Phase::Kinematics);
     copy.right.iter_mut().for_each(|row| row[0] = 0.0);
     run_phase(Scalar, model, &mut copy, Phase::Magnets);
-    let size = body_size(model.dimensions());
+    let size = model.sizes().body();
     let impulses = model.coordinates.bodies.iter().flat_map(|&dof| &copy.right[dof..dof + size]);
     impulses.map(|impulse| impulse[0] / model.step_s).collect()
 }

@@ -148,3 +148,28 @@ pub fn axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3
     let [tangent, up, side] = body_axes(isa, block, body);
     [tangent.0, up.0, side.0]
 }
+
+/// M on the left and M v on the right for the rotation of the magnets, whose inertia Σ I a aᵀ turns with their axes a.
+#[inline(always)]
+pub fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
+        let a = axes(isa, block, body);
+        let first = dof + 3;
+        for row in 0..3 {
+            let mut momentum = isa.splat(0.0);
+            for column in 0..3 {
+                let mut entry = isa.splat(0.0);
+                for k in 0..3 {
+                    let moment = isa.load(&block.mass[first + k]);
+                    entry = entry + moment * a[k][row] * a[k][column];
+                }
+                momentum = momentum + entry * isa.load(&block.v[first + column]);
+                if column <= row {
+                    let place = model.system.at(first + row, first + column);
+                    isa.store(entry, &mut block.matrix[place]);
+                }
+            }
+            isa.store(momentum, &mut block.right[first + row]);
+        }
+    }
+}

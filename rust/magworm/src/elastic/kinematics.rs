@@ -1,56 +1,24 @@
 //! Node positions, tangents and lengths from the unknowns.
 
-use super::frames::update_frames;
-use crate::lanes::math::sin_cos;
-use crate::lanes::{Components, Dim, Isa, Real, Vec3, Vector};
+use super::Rod;
+use crate::lanes::{Components, Dim, Isa, Real};
 use crate::model::{Anchor, Model};
 use crate::state::Block;
 
 /// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date with `q`; in space also the
 /// frames of the elements.
 #[inline(always)]
-pub fn update<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn update<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     place::<D, I>(isa, model, block);
-    if D::AXES == 3 {
-        update_frames(isa, model, block);
-    }
+    D::update_frames(isa, model, block);
 }
 
 /// Brings `node`, `frame`, `tangent`, `length` and `inverse_length` up to date; leaves the state as it is.
 #[inline(always)]
-pub fn place<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    if D::AXES == 2 {
-        angles(isa, model, block);
-    } else {
-        directors(isa, model, block);
-    }
+pub fn place<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+    D::place_axes(isa, model, block);
     nodes::<D, I>(isa, model, block);
     elements::<D, I>(isa, model, block);
-}
-
-/// Axis of each magnet in the plane, from its angle.
-#[inline(always)]
-fn angles<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let (q, frame) = (&*block.q, &mut *block.frame);
-    for (body, dof) in model.coordinates.bodies.iter().enumerate() {
-        let (sin, cos) = sin_cos(isa.load(&q[dof + 2]));
-        isa.store(cos, &mut frame[2 * body]);
-        isa.store(sin, &mut frame[2 * body + 1]);
-    }
-}
-
-/// Axes of each magnet in space, from the frame of its element.
-#[inline(always)]
-fn directors<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let (director, frame) = (&*block.director, &mut *block.frame);
-    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        let up = Vec3::load(isa, &director[6 * magnet.element..]);
-        let t = Vector::load(isa, &director[6 * magnet.element + 3..]);
-        let axes = &mut frame[9 * body..][..9];
-        t.store(isa, axes);
-        up.store(isa, &mut axes[3..]);
-        t.cross(up).store(isa, &mut axes[6..]);
-    }
 }
 
 #[inline(always)]

@@ -13,15 +13,15 @@
 mod bend;
 mod frames;
 mod kinematics;
+mod rod;
 mod stretch;
 mod twist;
 pub mod vector;
 
-pub use bend::assemble as bend;
-pub use frames::{axes, rotate_frames};
+pub use frames::axes;
 pub use kinematics::{place, update as kinematics};
+pub use rod::Rod;
 pub use stretch::assemble as stretch;
-pub use twist::assemble as bend_and_twist;
 
 use crate::integrate::Coefficients;
 use crate::lanes::{Components, Dim, Isa, Real, Vec3};

@@ -4,17 +4,18 @@
 //! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ of each normal n, one in the plane and two
 //! in space, and enters the step as springs do. In compression it would be negative and is left out of the matrix.
 
+use super::rod::{Frames, Rod};
 use super::{
     Equations, MOST, Positions, Scheme, Springs, add_force, add_rank_one, generalised_gradient,
     strain_rate,
 };
-use crate::lanes::{Components, Dim, Isa, Real};
+use crate::lanes::{Components, Isa, Real};
 use crate::model::Model;
 use crate::state::Block;
 
 /// Adds all axial springs to the equations of a step.
 #[inline(always)]
-pub fn assemble<D: Dim, I: Isa>(
+pub fn assemble<D: Rod, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
@@ -23,7 +24,7 @@ pub fn assemble<D: Dim, I: Isa>(
     let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
     let (tangent, length, inverse_length) =
         (&*block.tangent, &*block.length, &*block.inverse_length);
-    let (director, side) = (&*block.director, &*block.side);
+    let frames = Frames { director: &block.director, side: &block.side };
     let positions = Positions { node: &block.node, q: &block.q };
     let mut equations = Equations { matrix, right, v };
     let mut gradient = [isa.splat(0.0); MOST];
@@ -43,17 +44,8 @@ pub fn assemble<D: Dim, I: Isa>(
         let tension = strain.max(isa.splat(0.0)) * stiffness;
         let force = tension * isa.load(&inverse_length[e]) * scheme.dt;
         let [before_s, after_s] = scheme.geometric_s;
-        let mut n = t;
-        for normal in 1..D::AXES {
-            if D::AXES == 2 {
-                n[0] = -t[1];
-                n[1] = t[0];
-            } else {
-                n = D::Vector::load(
-                    isa,
-                    if normal == 1 { &director[6 * e..] } else { &side[3 * e..] },
-                );
-            }
+        for normal in 0..D::TANGENTS {
+            let n = D::normal(isa, frames, e, t, normal);
             generalised_gradient::<D, I, 2>(isa, positions, stencil, &[-n, n], &mut gradient);
             add_rank_one(isa, equations.matrix, stencil, &gradient, force * after_s);
             let turned = strain_rate(isa, equations.v, stencil, &gradient) * before_s;

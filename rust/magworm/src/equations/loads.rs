@@ -2,8 +2,8 @@
 
 use super::{hold, off_centre};
 use crate::actuator::{Actuator, Layout, states};
-use crate::elastic;
 use crate::elastic::vector::cross;
+use crate::elastic::{self, Rod};
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Dim, Isa, Mask, Real};
 use crate::model::{Magnetics, Model, PairModel};
@@ -14,7 +14,7 @@ const WRENCH: usize = 6;
 
 /// Adds Δt m g to the right-hand side. Multipliers have no mass, and only bodies off their centre have a torque of weight.
 #[inline(always)]
-pub fn gravity<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn gravity<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
     let (masses, right) = (&*block.mass, &mut *block.right);

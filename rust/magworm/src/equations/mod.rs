@@ -12,8 +12,8 @@ mod loads;
 mod off_centre;
 mod ties;
 
-use crate::elastic::{self, Scheme};
-use crate::lanes::{Dim, Isa};
+use crate::elastic::{self, Rod, Scheme};
+use crate::lanes::Isa;
 use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
@@ -23,25 +23,19 @@ pub use off_centre::carry;
 
 /// Begins matrix and right-hand side of a step: inertia alone.
 #[inline(always)]
-pub fn inertia<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     model.system.clear(isa, &mut block.matrix);
     diagonal_inertia(isa, model, block);
-    if D::AXES == 3 {
-        rotary_inertia(isa, model, block);
-    }
+    D::rotary_inertia(isa, model, block);
     off_centre::inertia::<D, I>(isa, model, block);
 }
 
 /// Adds the springs of the rod, and the multipliers where magnets are held by them.
 #[inline(always)]
-pub fn springs<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn springs<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let scheme = scheme(isa, model, block);
     elastic::stretch::<D, I>(isa, model, block, scheme);
-    if D::AXES == 2 {
-        elastic::bend(isa, model, block, scheme);
-    } else {
-        elastic::bend_and_twist(isa, model, block, scheme);
-    }
+    D::bend(isa, model, block, scheme);
     ties::constrain::<D, I>(isa, model, block);
 }
 
@@ -55,31 +49,6 @@ fn diagonal_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         let mass = isa.load(&masses[dof]);
         isa.store(mass, &mut matrix[model.system.at(dof, dof)]);
         isa.store(mass * isa.load(&speeds[dof]), &mut right[dof]);
-    }
-}
-
-/// The same for the rotation of the magnets in space, whose inertia Σ I a aᵀ turns with their axes a.
-#[inline(always)]
-fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
-        let axes = elastic::axes(isa, block, body);
-        let first = dof + 3;
-        for row in 0..3 {
-            let mut momentum = isa.splat(0.0);
-            for column in 0..3 {
-                let mut entry = isa.splat(0.0);
-                for k in 0..3 {
-                    let moment = isa.load(&block.mass[first + k]);
-                    entry = entry + moment * axes[k][row] * axes[k][column];
-                }
-                momentum = momentum + entry * isa.load(&block.v[first + column]);
-                if column <= row {
-                    let place = model.system.at(first + row, first + column);
-                    isa.store(entry, &mut block.matrix[place]);
-                }
-            }
-            isa.store(momentum, &mut block.right[first + row]);
-        }
     }
 }
 

@@ -9,10 +9,9 @@
 //! straight, with its own velocity v_c = v + ω × r, and the body has turned about it with its angular momentum there, I_c ω;
 //! X and v follow from both. That is the centrifugal force, and free flight keeps both momenta to rounding.
 
-use crate::elastic;
+use crate::elastic::Rod;
 use crate::elastic::vector::{cross, dot};
-use crate::lanes::math::sin_cos;
-use crate::lanes::{Dim, Isa, Real, Space};
+use crate::lanes::{Isa, Real};
 use crate::model::{Model, OffCentre};
 use crate::state::Block;
 
@@ -21,34 +20,27 @@ const PRODUCTS: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 
 /// Adds what S brings to both sides, and in space the products of inertia.
 #[inline(always)]
-pub fn inertia<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for body in &model.off_centre {
-        let axes = axes_before::<D, I>(isa, block, body);
+        let axes = D::axes_before(isa, block, body.body);
         let s = first_moment::<D, I>(isa, block, body, &axes);
         let velocity = vector::<D, I>(isa, &block.v, body.dof);
-        let rate = rotation::<D, I>(isa, &block.v, body.dof);
+        let rate = rotation::<D, I>(isa, &block.v, body);
         let (push, spin) = (cross(&rate, &s), cross(&s, &velocity));
-        let first = body.dof + D::AXES;
         (0..D::AXES).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
-        if D::AXES == 2 {
-            add(isa, spin[2], &mut block.right[first]);
-            set(isa, model, block, first, body.dof, -s[1]);
-            set(isa, model, block, first, body.dof + 1, s[0]);
-        } else {
-            for k in 0..3 {
-                let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-                add(isa, spin[k], &mut block.right[first + k]);
-                set(isa, model, block, first + k, body.dof + next, -s[last]);
-                set(isa, model, block, first + k, body.dof + last, s[next]);
-            }
-            add_products(isa, model, block, body, &axes, &rate);
+        for (dof, k) in rotations::<D>(body) {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            add(isa, spin[k], &mut block.right[dof]);
+            set(isa, model, block, dof, body.dof + next, -s[last]);
+            set(isa, model, block, dof, body.dof + last, s[next]);
         }
+        add_products::<D, I>(isa, model, block, body, &axes, &rate);
     }
 }
 
 /// Adds the torque Δt S × g of the weight.
 #[inline(always)]
-pub fn gravity<D: Dim, I: Isa>(
+pub fn gravity<D: Rod, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
@@ -56,28 +48,23 @@ pub fn gravity<D: Dim, I: Isa>(
 ) {
     let pull = gravity_m_s2.map(|g| isa.splat(g * model.step_s));
     for body in &model.off_centre {
-        let axes = axes_before::<D, I>(isa, block, body);
+        let axes = D::axes_before(isa, block, body.body);
         let torque = cross(&first_moment::<D, I>(isa, block, body, &axes), &pull);
-        let first = body.dof + D::AXES;
-        if D::AXES == 2 {
-            add(isa, torque[2], &mut block.right[first]);
-        } else {
-            (0..3).for_each(|k| add(isa, torque[k], &mut block.right[first + k]));
-        }
+        rotations::<D>(body).for_each(|(dof, k)| add(isa, torque[k], &mut block.right[dof]));
     }
 }
 
 /// Moves bodies and their velocities over a step as their centres of mass move, in the lanes of `go`; places and frames are
 /// already those at its end, as if X had moved straight.
 #[inline(always)]
-pub fn carry<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
+pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
     for body in &model.off_centre {
         let (before, after) =
-            (axes_before::<D, I>(isa, block, body), axes_after::<D, I>(isa, model, block, body));
+            (D::axes_before(isa, block, body.body), D::axes_after(isa, model, block, body.body));
         let share = one_over(isa.load(&block.mass[body.dof]));
         let arm = |axes| first_moment::<D, I>(isa, block, body, axes).map(|s| s * share);
         let (from, to) = (arm(&before), arm(&after));
-        let rate = rotation::<D, I>(isa, &block.next, body.dof);
+        let rate = rotation::<D, I>(isa, &block.next, body);
         let swing = cross(&rate, &from);
         let rate = if D::AXES == 2 {
             rate
@@ -92,9 +79,7 @@ pub fn carry<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, g
             keep(isa, go, place, &mut block.q[body.dof + k]);
             keep(isa, go, velocity, &mut block.v[body.dof + k]);
         }
-        if D::AXES == 3 {
-            (0..3).for_each(|k| keep(isa, go, rate[k], &mut block.v[body.dof + 3 + k]));
-        }
+        rotations::<D>(body).for_each(|(dof, k)| keep(isa, go, rate[k], &mut block.v[dof]));
     }
 }
 
@@ -136,7 +121,7 @@ fn central_inertia<I: Isa>(
 
 /// Adds I_kl (a_k a_lᵀ + a_l a_kᵀ) to the inertia of a body with the axes a, and its part of the momentum.
 #[inline(always)]
-fn add_products<I: Isa>(
+fn add_products<D: Rod, I: Isa>(
     isa: I,
     model: &Model,
     block: &mut Block<I::Row>,
@@ -144,8 +129,8 @@ fn add_products<I: Isa>(
     axes: &[[I::F; 3]; 3],
     rate: &[I::F; 3],
 ) {
-    let first = body.dof + 3;
-    for (at, (k, l)) in PRODUCTS.into_iter().enumerate() {
+    let first = body.dof + D::AXES;
+    for (at, (k, l)) in PRODUCTS.into_iter().take(D::PRODUCTS).enumerate() {
         let entry = isa.load(&block.off_centre[body.row + 3 + at]);
         let (by_k, by_l) = (dot(&axes[k], rate) * entry, dot(&axes[l], rate) * entry);
         for row in 0..3 {
@@ -161,7 +146,7 @@ fn add_products<I: Isa>(
 
 /// S in x, y, z.
 #[inline(always)]
-fn first_moment<D: Dim, I: Isa>(
+fn first_moment<D: Rod, I: Isa>(
     isa: I,
     block: &Block<I::Row>,
     body: &OffCentre,
@@ -170,58 +155,27 @@ fn first_moment<D: Dim, I: Isa>(
     world(axes, &vector::<D, I>(isa, &block.off_centre, body.row))
 }
 
-/// Axes of a body at the start of a step.
-#[inline(always)]
-fn axes_before<D: Dim, I: Isa>(isa: I, block: &Block<I::Row>, body: &OffCentre) -> [[I::F; 3]; 3] {
-    if D::AXES == 3 {
-        return elastic::axes(isa, block, body.body);
-    }
-    let frame = &block.frame[2 * body.body..];
-    planar_axes(isa.load(&frame[0]), isa.load(&frame[1]))
-}
-
-/// Axes of a body at the end of a step.
-#[inline(always)]
-fn axes_after<D: Dim, I: Isa>(
-    isa: I,
-    model: &Model,
-    block: &Block<I::Row>,
-    body: &OffCentre,
-) -> [[I::F; 3]; 3] {
-    if D::AXES == 3 {
-        let first = 6 * model.mesh.magnets[body.body].element;
-        let up = vector::<Space, I>(isa, &block.director, first);
-        let tangent = vector::<Space, I>(isa, &block.director, first + 3);
-        return [tangent, up, cross(&tangent, &up)];
-    }
-    let (sin, cos) = sin_cos(isa.load(&block.q[body.dof + 2]));
-    planar_axes(cos, sin)
-}
-
-/// Tangent, up and side of a body in the plane.
-#[inline(always)]
-fn planar_axes<F: Real>(cos: F, sin: F) -> [[F; 3]; 3] {
-    let (zero, one) = (cos.splat(0.0), cos.splat(1.0));
-    [[cos, sin, zero], [-sin, cos, zero], [zero, zero, one]]
-}
-
 /// A vector of the first D components, 0 beyond.
 #[inline(always)]
-fn vector<D: Dim, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
+fn vector<D: Rod, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
     let mut vector = [isa.splat(0.0); 3];
     (0..D::AXES).for_each(|k| vector[k] = isa.load(&rows[first + k]));
     vector
 }
 
-/// Angular velocity of a body whose unknowns begin at `dof`.
+/// Unknowns of the rotations of a body, each with its axis: in the plane that about z alone.
 #[inline(always)]
-fn rotation<D: Dim, I: Isa>(isa: I, rows: &[I::Row], dof: usize) -> [I::F; 3] {
-    let zero = isa.splat(0.0);
-    if D::AXES == 2 {
-        [zero, zero, isa.load(&rows[dof + 2])]
-    } else {
-        vector::<Space, I>(isa, rows, dof + 3)
-    }
+fn rotations<D: Rod>(body: &OffCentre) -> impl Iterator<Item = (usize, usize)> + use<D> {
+    let first = body.dof + D::AXES;
+    (0..D::ROTATIONS).map(move |k| (first + k, 3 - D::ROTATIONS + k))
+}
+
+/// Angular velocity of a body, 0 about the axes that it does not turn about.
+#[inline(always)]
+fn rotation<D: Rod, I: Isa>(isa: I, rows: &[I::Row], body: &OffCentre) -> [I::F; 3] {
+    let mut rate = [isa.splat(0.0); 3];
+    rotations::<D>(body).for_each(|(dof, k)| rate[k] = isa.load(&rows[dof]));
+    rate
 }
 
 /// 1/m; 1 for a robot without mass.

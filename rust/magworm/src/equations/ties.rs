@@ -30,15 +30,10 @@ fn follow<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie:
         isa.store(-(strayed / model.step_s), &mut block.right[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));
-        if D::AXES == 2 {
-            // ∂(X + R r)/∂θ = ẑ × arm.
-            let turn = if k == 0 { arm[1] } else { -arm[0] };
-            set(isa, model, block, row, body + 2, turn);
-        } else {
-            // ∂(ω × arm)_k/∂ω: a row of the skew matrix of −arm.
-            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            set(isa, model, block, row, body + 3 + next, -arm[last % D::AXES]);
-            set(isa, model, block, row, body + 3 + last, arm[next % D::AXES]);
+        // −∂(ω × arm)_k/∂ω = e_k × arm.
+        let turn = D::axis_cross(k, arm);
+        for rotation in 0..D::ROTATIONS {
+            set(isa, model, block, row, body + D::AXES + rotation, turn[rotation]);
         }
     }
 }

@@ -15,6 +15,14 @@ pub trait Dim: Copy + Send + Sync + 'static {
     const BODY: usize = Self::AXES + Self::ROTATIONS;
     /// Tangents of a surface.
     const TANGENTS: usize = Self::AXES - 1;
+    /// Products of inertia of a body: one for each pair of its rotations.
+    const PRODUCTS: usize = Self::ROTATIONS * (Self::ROTATIONS - 1) / 2;
+    /// Numbers of an orientation as arrays hold it: an angle, in space a quaternion.
+    const ORIENTATION: usize;
+    /// Axes of a stage: x and y, in space also z and yaw.
+    const STAGE: usize;
+    /// Where contact points stand across a foot, in its widths.
+    const ACROSS: &'static [f64];
 
     /// Position, velocity or force.
     type Vector<F: Real>: Components<F>;
@@ -29,6 +37,8 @@ pub trait Dim: Copy + Send + Sync + 'static {
 
     /// ω × r.
     fn angular_cross<F: Real>(w: Self::Angular<F>, r: Self::Vector<F>) -> Self::Vector<F>;
+    /// e × r with e along an axis.
+    fn axis_cross<F: Real>(axis: usize, r: Self::Vector<F>) -> Self::Angular<F>;
     /// r × f.
     fn torque<F: Real>(r: Self::Vector<F>, f: Self::Vector<F>) -> Self::Angular<F>;
     /// h ω × (ω × r).
@@ -67,6 +77,9 @@ const NO_LENGTH: f64 = 1e-30;
 impl Dim for Plane {
     const AXES: usize = 2;
     const ROTATIONS: usize = 1;
+    const ORIENTATION: usize = 1;
+    const STAGE: usize = 2;
+    const ACROSS: &'static [f64] = &[0.0];
 
     type Vector<F: Real> = Vector<F, 2>;
     type Frame<F: Real> = Vector<F, 2>;
@@ -77,6 +90,10 @@ impl Dim for Plane {
     #[inline(always)]
     fn angular_cross<F: Real>(w: Vector<F, 1>, r: Vector<F, 2>) -> Vector<F, 2> {
         Vector([-(w[0] * r[1]), w[0] * r[0]])
+    }
+    #[inline(always)]
+    fn axis_cross<F: Real>(axis: usize, r: Vector<F, 2>) -> Vector<F, 1> {
+        Vector([[r[1], -r[0]][axis]])
     }
     #[inline(always)]
     fn torque<F: Real>(r: Vector<F, 2>, f: Vector<F, 2>) -> Vector<F, 1> {
@@ -120,6 +137,9 @@ impl Dim for Plane {
 impl Dim for Space {
     const AXES: usize = 3;
     const ROTATIONS: usize = 3;
+    const ORIENTATION: usize = 4;
+    const STAGE: usize = 4;
+    const ACROSS: &'static [f64] = &[-0.5, 0.5];
 
     type Vector<F: Real> = Vec3<F>;
     type Frame<F: Real> = Vector<F, 9>;
@@ -130,6 +150,11 @@ impl Dim for Space {
     #[inline(always)]
     fn angular_cross<F: Real>(w: Vec3<F>, r: Vec3<F>) -> Vec3<F> {
         w.cross(r)
+    }
+    #[inline(always)]
+    fn axis_cross<F: Real>(axis: usize, r: Vec3<F>) -> Vec3<F> {
+        let zero = r[0].splat(0.0);
+        Vector([[zero, -r[2], r[1]], [r[2], zero, -r[0]], [-r[1], r[0], zero]][axis])
     }
     #[inline(always)]
     fn torque<F: Real>(r: Vec3<F>, f: Vec3<F>) -> Vec3<F> {

@@ -15,6 +15,7 @@
 pub mod banded;
 pub mod chain;
 mod dim;
+mod dimensions;
 pub mod math;
 mod number;
 mod row;
@@ -25,6 +26,7 @@ mod vector;
 mod wide;
 
 pub use dim::{Dim, Plane, Space};
+pub use dimensions::Dimensions;
 pub use number::Number;
 pub use row::Row;
 pub use scalar::{Scalar, ScalarSingle};

@@ -11,6 +11,7 @@
 //! | space | x, y, z | x, y, z, rotation about x, y, z | twist about its tangent | 3 |
 
 use super::Mesh;
+use crate::lanes::Dimensions;
 use crate::lanes::chain::Chain;
 
 /// Which unknowns are used.
@@ -100,9 +101,14 @@ impl Coordinates {
         this
     }
 
+    /// Sizes that follow from the dimension.
+    pub fn sizes(&self) -> Dimensions {
+        Dimensions::new(self.dimensions)
+    }
+
     /// Unknowns of a magnet.
     pub fn body_size(&self) -> usize {
-        body_size(self.dimensions)
+        self.sizes().body()
     }
 
     fn number_free(&mut self) {
@@ -112,7 +118,8 @@ impl Coordinates {
 
     fn number_twist(&mut self, mesh: &Mesh, element: usize) {
         let clamped = element + 1 < mesh.fixed_nodes;
-        let twists = self.dimensions == 3 && mesh.elements[element].magnet.is_none() && !clamped;
+        let twists = mesh.elements[element].magnet.is_none() && !clamped;
+        let twists = twists && self.sizes().twists() > 0;
         let dof = twists.then(|| self.take(1));
         self.twists.push(dof);
     }
@@ -159,11 +166,6 @@ fn magnet_ends(mesh: &Mesh) -> Vec<Option<(usize, i8)>> {
         ends[magnet.element + 1] = Some((body, 1));
     }
     ends
-}
-
-/// Unknowns of a magnet: its position, and one rotation in the plane or three in space.
-pub const fn body_size(dimensions: usize) -> usize {
-    if dimensions == 2 { 3 } else { 6 }
 }
 
 /// Most unknowns in one stencil: two magnets and a node between them, with the twist of two elements.
@@ -214,7 +216,7 @@ impl Stencil {
 
     /// The stencil of `nodes` and of the twist of the elements between them.
     pub fn with_twist(coordinates: &Coordinates, nodes: &[usize]) -> Self {
-        Self::along(coordinates, nodes, true)
+        Self::along(coordinates, nodes, coordinates.sizes().twists() > 0)
     }
 
     fn along(coordinates: &Coordinates, nodes: &[usize], twist: bool) -> Self {
@@ -232,7 +234,7 @@ impl Stencil {
         };
         for (k, &node) in nodes.iter().enumerate() {
             this.add_node(coordinates, k, node);
-            if twist && coordinates.dimensions == 3 && k + 1 < nodes.len() {
+            if twist && k + 1 < nodes.len() {
                 this.add_spin(coordinates, k, node);
             }
         }

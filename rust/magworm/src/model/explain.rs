@@ -92,10 +92,10 @@ impl Model {
 
     fn explain_field(&self) -> String {
         match (&self.program.uniform_field, &self.scene.field) {
-            (Some(field), _) if self.dimensions() == 2 => {
-                format!("({}, {}) T", field.field_t[0], field.field_t[1])
+            (Some(UniformTorque { field_t, .. }), _) => {
+                let components = field_t[..self.dimensions()].iter().map(f64::to_string);
+                format!("({}) T", components.collect::<Vec<_>>().join(", "))
             }
-            (Some(UniformTorque { field_t: [x, y, z], .. }), _) => format!("({x}, {y}, {z}) T"),
             (None, Some(_)) => "left out: the body has no magnets".to_string(),
             (None, None) => "left out: the scene has no [field]".to_string(),
         }

@@ -42,14 +42,9 @@ pub struct OffCentre {
     pub parts: Vec<MassPart>,
 }
 
-/// Rows of a body that is off its centre, in the plane or in space.
-pub const fn off_centre_rows(dimensions: usize) -> usize {
-    if dimensions == 2 { 2 } else { 6 }
-}
-
 /// The bodies whose magnets lie beside the middle of their elements.
 pub fn off_centre(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<OffCentre> {
-    let rows = off_centre_rows(coordinates.dimensions);
+    let rows = coordinates.sizes().moments();
     let density_kg_m3 = scene.material.density_kg_m3;
     let bodies = (0..mesh.magnets.len()).filter(|body| mesh.magnets[*body].offset_m.is_some());
     bodies
@@ -77,7 +72,8 @@ fn moments(
 ) -> Vec<MassPart> {
     let [x, y, z] = magnet.offset_m.unwrap_or_default();
     let (magnet_kg, cavity_kg) = (magnet.mass_kg(), density_kg_m3 * magnet.volume_m3());
-    let arms = if rows.len() == 2 { vec![x, y] } else { vec![x, y, z, -y * z, -z * x, -x * y] };
+    // In the plane the first two are all.
+    let arms = [x, y, z, -y * z, -z * x, -x * y];
     let part = |(row, arm)| MassPart {
         row,
         rubber: -cavity_kg * arm,
@@ -129,7 +125,7 @@ fn add_point(
     node: usize,
     mass_kg: f64,
 ) {
-    let dimensions = coordinates.dimensions;
+    let (sizes, dimensions) = (coordinates.sizes(), coordinates.dimensions);
     match coordinates.anchors[node] {
         Anchor::Free { dof } => {
             rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg)
@@ -138,9 +134,11 @@ fn add_point(
             let arm_m = mesh.magnets[body].half_length_m;
             let dof = coordinates.bodies[body];
             rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg);
-            // About all axes but the tangent, on which it lies; in the plane there is one.
-            let rotations = if dimensions == 2 { dof + 2..dof + 3 } else { dof + 4..dof + 6 };
-            rubber[rotations].iter_mut().for_each(|m| *m += mass_kg * arm_m * arm_m);
+            // About all axes but the tangent, on which it lies: the last ones.
+            let end = dof + sizes.body();
+            rubber[end - sizes.tangents()..end]
+                .iter_mut()
+                .for_each(|m| *m += mass_kg * arm_m * arm_m);
         }
         Anchor::Fixed => {}
     }
@@ -166,22 +164,18 @@ fn body_parts(
         magnet: magnet_kg * gyration_m2,
         fill: fill_kg * gyration_m2,
     };
-    // About an axis: the rubber's length is in its points. Squares of the radii of gyration, and of the distance of the magnet.
+    // About tangent, up and side, in the plane about the last alone. The rubber's length is in its points. Squares of the radii of
+    // gyration, and of the distance of the magnet.
     let [x, y, z] = magnet.offset_m.unwrap_or_default();
-    let about_side =
-        (gyration_m2(thickness_m, 0.0), gyration_m2(length_m, height_m), x * x + y * y);
-    let rotations = if coordinates.dimensions == 2 {
-        vec![about_side]
-    } else {
-        vec![
-            (gyration_m2(thickness_m, width_m), gyration_m2(height_m, depth_m), y * y + z * z),
-            (gyration_m2(width_m, 0.0), gyration_m2(length_m, depth_m), z * z + x * x),
-            about_side,
-        ]
-    };
+    let about = [
+        (gyration_m2(thickness_m, width_m), gyration_m2(height_m, depth_m), y * y + z * z),
+        (gyration_m2(width_m, 0.0), gyration_m2(length_m, depth_m), z * z + x * x),
+        (gyration_m2(thickness_m, 0.0), gyration_m2(length_m, height_m), x * x + y * y),
+    ];
     let first = dof + coordinates.dimensions;
     let translations = (dof..first).map(|dof| part(dof, around_kg * 2.0 / 3.0, 1.0));
-    let rotations = rotations.into_iter().enumerate().map(|(k, (rubber, magnet, beside))| {
+    let rotations = about.into_iter().skip(3 - coordinates.sizes().rotations);
+    let rotations = rotations.enumerate().map(|(k, (rubber, magnet, beside))| {
         part(first + k, around_kg * rubber - fill_kg * beside, magnet + beside)
     });
     translations.chain(rotations).collect()

@@ -15,9 +15,9 @@ mod waves;
 
 pub use crate::scene::{ContactPoint, Element, Frame, Mesh, MeshMagnet};
 pub use contacts::{ContactPair, ContactParameters, Surface};
-pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns, body_size};
+pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns};
 pub(crate) use fingerprint::Sum;
-pub use inertia::{MassPart, OffCentre, off_centre_rows};
+pub use inertia::{MassPart, OffCentre};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
 pub use rows::{Allowed, GREATEST, ROWS, Role, RowGroup};
@@ -25,6 +25,7 @@ pub use shape::Shape;
 pub use waves::Wave;
 
 use crate::actuator::Actuator;
+use crate::lanes::Dimensions;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
@@ -186,6 +187,11 @@ impl Model {
     /// 2 in the plane, 3 in space.
     pub fn dimensions(&self) -> usize {
         self.coordinates.dimensions
+    }
+
+    /// The sizes that follow from that.
+    pub fn sizes(&self) -> Dimensions {
+        self.coordinates.sizes()
     }
 
     /// The parameters that each environment may have for its own.

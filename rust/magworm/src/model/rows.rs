@@ -3,7 +3,7 @@
 //! A row is one number per lane. [`crate::state::Block`] has a field for each group of rows that stands here, with
 //! the group's doc comment; allocation, reset, snapshots and `docs/rows.md` follow from the declaration as well.
 
-use super::{Model, body_size, off_centre_rows};
+use super::Model;
 use crate::actuator::Sizes;
 use crate::lanes::unsymmetric;
 
@@ -103,7 +103,7 @@ macro_rules! block_rows {
                 /// Mass of each unknown, shape [unknowns].
                 mass: "kg, kg·m²", |m| m.coordinates.count;
                 /// First moments and products of inertia of bodies off their centre, see [`crate::model::OffCentre::row`].
-                off_centre: "kg·m, kg·m²", |m| off_centre_rows(m.dimensions()) * m.off_centre.len();
+                off_centre: "kg·m, kg·m²", |m| m.sizes().moments() * m.off_centre.len();
                 /// Remanence of each body magnet along its up direction, 0 where it is out, shape [magnets].
                 remanence: "T", |m| m.magnets();
             }
@@ -122,7 +122,7 @@ macro_rules! block_rows {
                 side: "1", |m| in_space(m, 3 * (m.nodes() - 1));
                 /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
                 /// shape [magnets × 9].
-                frame: "1", |m| if m.dimensions() == 2 { 2 } else { 9 } * m.magnets();
+                frame: "1", |m| m.sizes().frame * m.magnets();
                 /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
                 matrix: "kg, kg·m, kg·m²", |m| m.system.entries();
                 /// Right-hand side, shape [unknowns].
@@ -207,9 +207,9 @@ macro_rules! allowed {
 }
 block_rows!(table);
 
-/// Rows that only a robot in space has.
+/// Rows that only a robot in space has, which can twist.
 fn in_space(model: &Model, rows: usize) -> usize {
-    if model.dimensions() == 3 { rows } else { 0 }
+    model.sizes().twists() * rows
 }
 
 /// Rows of the contact solve: none where nothing touches.
@@ -220,5 +220,5 @@ fn kept(model: &Model, rows: usize) -> usize {
 /// None where each wrench acts for one step.
 fn held_wrenches(model: &Model) -> usize {
     let holds = model.program.magnetics.as_ref().is_some_and(|magnetics| magnetics.interval > 1);
-    if holds { body_size(model.dimensions()) * model.magnets() } else { 0 }
+    if holds { model.sizes().body() * model.magnets() } else { 0 }
 }

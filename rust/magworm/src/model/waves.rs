@@ -40,15 +40,12 @@ pub struct Fastest {
 /// that a reset draws.
 pub fn fastest(model: &Model) -> Vec<Fastest> {
     let masses = Masses::new(model);
-    let spatial = model.dimensions() == 3;
-    let across: &[(Wave, usize)] = if spatial {
-        &[(Wave::Bending, 1), (Wave::BendingAcross, 2)]
-    } else {
-        &[(Wave::Bending, 1)]
-    };
     let mut lines = vec![(Wave::Stretching, stretching(model, &masses))];
-    lines.extend(across.iter().map(|&(wave, axis)| (wave, bending(model, &masses, axis))));
-    if spatial {
+    let bending_about = [(Wave::Bending, 1), (Wave::BendingAcross, 2)];
+    for (wave, axis) in bending_about.into_iter().take(model.sizes().tangents()) {
+        lines.push((wave, bending(model, &masses, axis)));
+    }
+    if model.sizes().twists() > 0 {
         lines.push((Wave::Twisting, twisting(model, &masses)));
     }
     let softest = draw(model, Parameter::Mass, |vary| vary.low);

@@ -3,6 +3,7 @@
 use super::contact_point::{ContactPoint, Frame};
 use super::direction::{Direction, unit_vector};
 use super::{Plan, Scene, Segment, SegmentMagnet};
+use crate::lanes::Dimensions;
 use crate::magnetic::Cuboid;
 
 /// Nodes and elements along the rest body, head first.
@@ -161,12 +162,12 @@ impl Mesh {
 
     /// A toe and a heel in the plane, two of each in space.
     fn add_corners(&mut self, foot: &Segment, along_m: f64, body: usize, dimensions: usize) {
-        let corners: &[f64] = if dimensions == 2 { &[0.0] } else { &[-0.5, 0.5] };
+        let across = Dimensions::new(dimensions).across;
         let depth_m = 0.5 * foot.thickness_m;
         for end_m in [-0.5 * foot.length_m, 0.5 * foot.length_m] {
-            self.contact_points.extend(corners.iter().map(|corner| ContactPoint {
+            self.contact_points.extend(across.iter().map(|across| ContactPoint {
                 frame: Frame::Body(body),
-                place_m: [end_m - along_m, -depth_m, corner * foot.width_m],
+                place_m: [end_m - along_m, -depth_m, across * foot.width_m],
             }));
         }
     }
