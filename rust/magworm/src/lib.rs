@@ -58,7 +58,7 @@ pub mod internals {
     pub use crate::batch::Pool;
     pub use crate::contact::ContactMode;
     pub use crate::draws::Draws;
-    pub use crate::elastic::kinematics;
+    pub use crate::elastic::{Rod, kinematics};
     pub use crate::model::{Allowed, Anchor, Frame, PairModel, Phase, ROWS, Role, RowGroup, Wave};
     pub use crate::record::{Recording, Watch, record};
     pub use crate::reset::{reset, scene_start};

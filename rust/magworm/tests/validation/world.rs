@@ -1,7 +1,7 @@
 //! One environment whose state a test may set and read freely.
 
-use magworm::internals::lanes::{Dim, Scalar};
-use magworm::internals::{Anchor, Block, Draws, advance, equations, reset, scene_start};
+use magworm::internals::lanes::Scalar;
+use magworm::internals::{Anchor, Block, Draws, Rod, advance, equations, reset, scene_start};
 use magworm::scene::Scene;
 use magworm::{Model, StartPose, Status};
 
@@ -109,7 +109,7 @@ impl World {
     }
 
     /// The equations of a step in D dimensions, without contact, from the kinematics as they stand.
-    pub fn assemble<D: Dim>(&mut self) {
+    pub fn assemble<D: Rod>(&mut self) {
         let (model, block) = (&self.model, &mut self.block);
         equations::inertia::<D, _>(Scalar, model, block);
         equations::gravity::<D, _>(Scalar, model, block);
