@@ -235,19 +235,19 @@ impl Batch {
     }
 
     fn magnet_poses<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
-        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 7])];
+        let shape = [self.count, self.model.magnets(), self.model.sizes().pose()];
         self.table(py, "magnet_poses", shape, |view, k, row| view.write_magnet_pose(k, row))
     }
 
     fn magnet_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
-        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 6])];
+        let shape = [self.count, self.model.magnets(), self.model.sizes().body()];
         self.table(py, "magnet_velocities", shape, |view, k, row| {
             view.write_magnet_velocity(k, row)
         })
     }
 
     fn magnet_wrenches<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
-        let shape = [self.count, self.model.magnets(), self.of_dimensions([3, 6])];
+        let shape = [self.count, self.model.magnets(), self.model.sizes().body()];
         let rows = self.seen(py, "magnet_wrenches", product(&shape[1..]), |view, row| {
             row.copy_from_slice(&view.magnet_wrenches());
         })?;
@@ -255,18 +255,18 @@ impl Batch {
     }
 
     fn node_positions<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
-        let shape = [self.count, self.model.nodes(), self.of_dimensions([2, 3])];
+        let shape = [self.count, self.model.nodes(), self.model.dimensions()];
         self.table(py, "node_positions", shape, |view, k, row| view.write_node(k, row))
     }
 
     fn drive_positions<'py>(&self, py: Python<'py>) -> PyResult<Array3<'py>> {
         let magnets = self.model.program.drive_magnets();
-        let shape = [self.count, magnets, self.of_dimensions([2, 4])];
+        let shape = [self.count, magnets, self.model.sizes().stage];
         self.table(py, "drive_positions", shape, |view, k, row| view.write_drive_place(k, row))
     }
 
     fn drive_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f64>> {
-        let width = self.of_dimensions([2, 4]);
+        let width = self.model.sizes().stage;
         let rows = self.seen(py, "drive_velocities", width, |view, row| {
             row.copy_from_slice(&view.drive_velocity());
         })?;
@@ -327,11 +327,6 @@ impl Batch {
 
     fn writing(&self) -> PyResult<RwLockWriteGuard<'_, magworm::Batch>> {
         self.batch.try_write().map_err(|error| in_use("this batch", &error))
-    }
-
-    /// What a scene in the plane and one in space have.
-    fn of_dimensions<T>(&self, [plane, space]: [T; 2]) -> T {
-        if self.model.dimensions() == 2 { plane } else { space }
     }
 
     /// So many numbers of each environment.

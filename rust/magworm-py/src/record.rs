@@ -87,10 +87,11 @@ fn arrays<'py>(
 ) -> PyResult<Arrays<'py>> {
     let instants = watch.intervals as usize + 1;
     let Recording { magnet_poses, drive, node_m, status } = recording;
-    let (pose, place, axes) = if model.dimensions() == 2 { (3, 2, 2) } else { (7, 4, 3) };
+    let sizes = model.sizes();
     let table = |numbers: Vec<f64>, width: usize| {
         let each = numbers.len() / (instants * width);
         shaped(py, numbers, [instants, each, width])
     };
-    Ok((table(magnet_poses, pose)?, table(drive, place)?, table(node_m, axes)?, status as u8))
+    let (poses, places) = (table(magnet_poses, sizes.pose())?, table(drive, sizes.stage)?);
+    Ok((poses, places, table(node_m, sizes.axes)?, status as u8))
 }

@@ -28,7 +28,7 @@ pub fn rollout(
     let py = actions.py();
     let (steps, actions) = planned(batch, actions)?;
     let (count, magnets) = (batch.count(), batch.model().magnets());
-    let pose = if batch.model().dimensions() == 2 { 3 } else { 7 };
+    let pose = batch.model().sizes().pose();
     let width = observe::size(batch.model());
     let plan = Plan { control_steps: steps, actions: &actions };
     let wanted = |wanted: bool, size: usize| if wanted { size } else { 0 };

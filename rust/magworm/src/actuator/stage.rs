@@ -5,7 +5,7 @@ use super::path::{Limits, Path};
 use super::rows::{ActuatorRows, Clock, Sizes};
 use crate::draws::Draws;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Dim, Isa, Number, Real, Row};
+use crate::lanes::{Dim, Dimensions, Isa, Number, Real, Row};
 use crate::scene::{Arrangement, Drive};
 use crate::specification::{Observation, Outlook, Scales, Specification};
 use nalgebra::Vector3;
@@ -92,7 +92,7 @@ impl Stage {
 
     /// Axes: x, y in the plane; x, y, z and yaw in space.
     pub const fn axes(dimensions: usize) -> usize {
-        if dimensions == 2 { 2 } else { 4 }
+        Dimensions::new(dimensions).stage
     }
 }
 
