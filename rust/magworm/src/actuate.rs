@@ -7,19 +7,20 @@ use crate::model::Model;
 use crate::scene::Parameter;
 use crate::state::Block;
 
-/// Puts the actuators of one lane where they start, around the robot that lies there.
+/// Puts the actuators of one lane where they start, each around its robot.
 pub fn place<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, draws: &mut Draws) {
-    let robot = block.robot_pose(model, lane);
-    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+    for (place, actuator) in model.program.actuators.iter().enumerate() {
+        let robot = block.robot_pose(model, actuator.robot(), lane);
         let draws = model.scene.reset.random_drive.then_some(&mut *draws);
-        actuator.place(rows, lane, robot, draws);
+        actuator.place(block.actuator_rows(model, place), lane, robot, draws);
     }
 }
 
 /// Sets the targets of one lane from an action, to each actuator its own part. What is missing counts as 0.
 pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut action: &[f64]) {
-    let robot = block.robot_pose(model, lane);
-    for (actuator, rows) in each(&model.program.actuators, block.actuator_rows()) {
+    for (place, actuator) in model.program.actuators.iter().enumerate() {
+        let robot = block.robot_pose(model, actuator.robot(), lane);
+        let rows = block.actuator_rows(model, place);
         let (own, rest) = action.split_at(rows.action.len().min(action.len()));
         actuator.command(rows, lane, robot, own);
         action = rest;

@@ -8,10 +8,11 @@ pub use crate::specification::Specification;
 use crate::actuator::{Actuator, Sizes, Stage, states};
 use crate::lanes::math::atan2;
 use crate::lanes::{Number, Row};
-use crate::model::Model;
+use crate::model::{Model, Robot};
 use crate::specification::{Observation, Outlook, Scales};
 use crate::state::Block;
 use nalgebra::{UnitQuaternion, Vector3};
+use std::ops::Range;
 
 /// Speed that observations are scaled by where no actuator has a limit [m/s].
 const SPEED_M_S: f64 = 0.210;
@@ -25,7 +26,12 @@ pub fn action_size(model: &Model) -> usize {
 pub fn size(model: &Model) -> usize {
     let Sizes { observation, action, .. } = sizes(model);
     // Pose and velocity of each magnet.
-    2 * model.sizes().body() * model.magnets() + observation + action
+    2 * model.sizes().body() * magnets(model).len() + observation + action
+}
+
+/// The magnets that an agent sees: those of its robot.
+fn magnets(model: &Model) -> Range<usize> {
+    model.robots[Robot::AGENT].bodies.clone()
 }
 
 /// A scene without actuators is seen as one whose stage stands still: an agent finds all else in its place.
@@ -63,11 +69,11 @@ pub fn action(model: &Model) -> Vec<Specification> {
 /// In space everything is seen from the robot: x points from its head to its tail along the ground, z to its
 /// side, and the origin is under its centre.
 pub fn observation(model: &Model) -> Vec<Specification> {
-    let scales = scales(model);
+    let (scales, magnets) = (scales(model), magnets(model).len());
     let mut slices = if model.dimensions() == 2 {
-        planar(model.magnets(), &scales)
+        planar(magnets, &scales)
     } else {
-        spatial(3 * model.magnets(), &scales)
+        spatial(3 * magnets, &scales)
     };
     slices.extend(actuators(model).iter().flat_map(|actuator| actuator.observation(&scales)));
     slices.push(Specification::within_one("last_action", action_size(model), "the action before"));
@@ -101,7 +107,8 @@ fn spatial(numbers: usize, scales: &Scales) -> Vec<Specification> {
 
 /// Writes the observation of one lane.
 pub fn write<R: Row>(model: &Model, block: &Block<R>, lane: usize, row: &mut [f32]) {
-    let (scales, from) = (scales(model), Outlook::new(block.robot_pose(model, lane)));
+    let robot = block.robot_pose(model, Robot::AGENT, lane);
+    let (scales, from) = (scales(model), Outlook::new(robot));
     let mut out = Observation::new(row);
     if model.dimensions() == 2 {
         write_planar(model, block, lane, &scales, &mut out);
@@ -123,14 +130,16 @@ fn write_planar<R: Row>(
     out: &mut Observation<'_>,
 ) {
     let (per_length, per_speed) = (1.0 / scales.length_m, 1.0 / scales.speed_m_s);
-    let places = [(block.centre_x(model, lane), per_length), (0.0, per_length), (0.0, 1.0)];
+    let bodies = model.bodies_of(Robot::AGENT);
+    let centre = block.centre_x(model, Robot::AGENT, lane);
+    let places = [(centre, per_length), (0.0, per_length), (0.0, 1.0)];
     for (k, (origin, scale)) in places.into_iter().enumerate() {
-        for &dof in &model.coordinates.bodies {
+        for &dof in bodies {
             out.numbers(&[(block.q[dof + k][lane].f64() - origin) * scale]);
         }
     }
     for (k, scale) in [per_speed, per_speed, per_speed / per_length].into_iter().enumerate() {
-        for &dof in &model.coordinates.bodies {
+        for &dof in bodies {
             out.numbers(&[block.v[dof + k][lane].f64() * scale]);
         }
     }
@@ -144,7 +153,7 @@ fn write_spatial<R: Row>(
     scales: &Scales,
     out: &mut Observation<'_>,
 ) {
-    let magnets = 0..model.magnets();
+    let magnets = magnets(model);
     let pose = |magnet| block.magnet_pose(model, magnet, lane);
     let velocity = |magnet| block.magnet_velocity(model, magnet, lane);
     for magnet in magnets.clone() {

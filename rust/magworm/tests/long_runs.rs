@@ -49,9 +49,9 @@ fn a_robot_stands_still_for_ten_million_steps_in_single_precision() {
         robot::<[f32; 1]>("{kind='constant',x_m=0.027,y_m=-0.052,speed_m_s=0}");
     let set = InstructionSet::widest();
     block.advance_on(set, &model, 1000);
-    let start = block.robot_pose(&model, 0);
+    let start = block.robot_pose(&model, 0, 0);
     block.advance_on(set, &model, STEPS);
     assert_eq!((block.step_count[0], block.status[0]), (u64::from(STEPS) + 1000, Status::Running));
-    let end = block.robot_pose(&model, 0);
+    let end = block.robot_pose(&model, 0, 0);
     assert!((end[0] - start[0]).abs() < 1e-6, "from {start:?} to {end:?}");
 }

@@ -1,7 +1,7 @@
 //! Actuators: what moves the sources of the field, and how a controller commands it.
 //!
 //! An actuator declares its part of an action and of an observation, how many rows of a block it needs, where it starts,
-//! what a command sets, how it moves in a step, and where its magnets are. It knows its rows and is told where the
+//! what a command sets, how it moves in a step, and where its magnets are. It knows its rows and is told where its
 //! robot is; it knows neither model nor block. A scene has a list of them.
 
 mod axis;
@@ -61,7 +61,14 @@ impl Actuator {
         }
     }
 
-    /// Where a magnet is in one lane, for a robot whose centre is at x [m]: x, y, in space also z [m] and yaw [rad].
+    /// Place of the robot that it belongs to in the list of a scene's robots.
+    pub fn robot(&self) -> usize {
+        match self {
+            Self::Stage(stage) => stage.robot,
+        }
+    }
+
+    /// Where a magnet is in one lane, where the centre of its robot is at x [m]: x, y, in space also z [m] and yaw [rad].
     pub fn magnet_place(&self, magnet: usize, state: &[f64], robot_x: f64) -> Vec<f64> {
         match self {
             Self::Stage(stage) => stage.magnet_place(magnet, state, robot_x),
@@ -111,7 +118,7 @@ impl Actuator {
     }
 
     /// Puts it where it starts in one lane, at rest: by its motion, or at a place drawn at random within its limits.
-    /// `robot`: x, z of its centre [m] and heading [rad].
+    /// `robot`: x, z of the centre of its robot [m] and heading [rad].
     pub fn place<R: Row>(
         &self,
         rows: ActuatorRows<'_, R>,
@@ -125,7 +132,7 @@ impl Actuator {
     }
 
     /// Sets its targets in one lane from its part of an action, whose components are clipped to [−1, 1]; those that are
-    /// missing count as 0. `robot`: x, z of its centre [m] and heading [rad].
+    /// missing count as 0. `robot`: x, z of the centre of its robot [m] and heading [rad].
     pub fn command<R: Row>(
         &self,
         rows: ActuatorRows<'_, R>,

@@ -16,6 +16,9 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub struct Stage {
     dimensions: usize,
+    /// The robot that its targets and its start lie around and that its belt comes round beneath: a place in the list
+    /// of a scene's robots.
+    pub robot: usize,
     /// Places of the magnets around the stage.
     pub layout: Layout,
     /// Its motion.
@@ -66,15 +69,16 @@ impl Component {
 }
 
 impl Stage {
-    /// The stage of a scene.
+    /// The stage of a scene, beneath its first robot.
     pub fn new(drive: &Drive, dimensions: usize) -> Self {
-        Self { dimensions, layout: Layout::new(&drive.arrangement), path: Path::new(drive) }
+        let (layout, path) = (Layout::new(&drive.arrangement), Path::new(drive));
+        Self { dimensions, robot: 0, layout, path }
     }
 
     /// One that stands still, with a single magnet.
     pub fn standing(dimensions: usize) -> Self {
         let path = Path::Constant { start: [0.0; 4], speed_m_s: 0.0 };
-        Self { dimensions, layout: Layout::new(&Arrangement::Single), path }
+        Self { dimensions, robot: 0, layout: Layout::new(&Arrangement::Single), path }
     }
 
     /// Its limits, where it follows commands.

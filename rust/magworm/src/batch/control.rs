@@ -4,7 +4,7 @@ use crate::actuate::command;
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
 use crate::lanes::math::sin_cos;
-use crate::model::Model;
+use crate::model::{Model, Robot};
 use crate::observe;
 use crate::state::{Block, Status};
 use crate::step::Steps;
@@ -83,12 +83,13 @@ where
         }
     }
     for lane in 0..count {
-        block.robot_before[lane] = block.robot_pose(model, lane);
+        block.robot_before[lane] = block.robot_pose(model, Robot::AGENT, lane);
     }
     advance_block(model, block, model.steps_per_control, interruption)?;
     let width = observe::size(model);
     for lane in 0..count {
-        let (before, after) = (block.robot_before[lane], block.robot_pose(model, lane));
+        let (before, after) =
+            (block.robot_before[lane], block.robot_pose(model, Robot::AGENT, lane));
         // A robot that broke made no progress in this step.
         let runs = block.status[lane] == Status::Running;
         rows.progress_m[lane] = if runs { progress_m(before, after) } else { 0.0 };

@@ -7,7 +7,7 @@ use super::control::{ControlRows, control_block};
 use super::view::View;
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
-use crate::model::Model;
+use crate::model::{Model, Robot};
 use crate::state::Block;
 use crate::step::Steps;
 use rayon::ThreadPool;
@@ -110,7 +110,7 @@ fn note_poses<R: Row>(
 ) {
     let lanes = robot_pose.len() / 3;
     for (lane, row) in robot_pose.chunks_mut(3).enumerate() {
-        row.copy_from_slice(&block.robot_pose(model, lane));
+        row.copy_from_slice(&block.robot_pose(model, Robot::AGENT, lane));
     }
     if magnet_pose.is_empty() {
         return;

@@ -3,7 +3,7 @@
 use super::wrenches::magnet_wrenches;
 use crate::actuator::{Actuator, Stage, states};
 use crate::lanes::{Dimensions, Number, Row};
-use crate::model::Model;
+use crate::model::{Model, Robot};
 use crate::observe;
 use crate::state::{Block, Pose, Status, Twist};
 use nalgebra::Vector3;
@@ -29,7 +29,7 @@ trait LaneView {
     fn velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist;
     fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3];
     fn actuators(&self, lane: usize) -> Vec<f64>;
-    fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3];
+    fn robot_pose(&self, model: &Model, robot: usize, lane: usize) -> [f64; 3];
     fn steps(&self, lane: usize) -> u64;
     fn status(&self, lane: usize) -> Status;
     fn observe(&self, model: &Model, lane: usize, row: &mut [f32]);
@@ -53,8 +53,8 @@ impl<R: Row> LaneView for Block<R> {
     fn actuators(&self, lane: usize) -> Vec<f64> {
         self.stage.iter().map(|row| row[lane].f64()).collect()
     }
-    fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
-        Block::robot_pose(self, model, lane)
+    fn robot_pose(&self, model: &Model, robot: usize, lane: usize) -> [f64; 3] {
+        Block::robot_pose(self, model, robot, lane)
     }
     fn wrenches(&self, model: &Model, lane: usize) -> Vec<f64> {
         magnet_wrenches(model, self, lane)
@@ -109,8 +109,9 @@ impl View<'_> {
     }
     /// Centre of a drive magnet: x, y, in space also z [m] and yaw [rad]; none where the scene has no drive.
     pub fn drive_place(&self, drive_magnet: usize) -> Option<Vec<f64>> {
-        let (robot, state) = (self.robot_pose(), self.block.actuators(self.lane));
+        let state = self.block.actuators(self.lane);
         let place = |(actuator, state): (&Actuator, &[f64])| {
+            let robot = self.block.robot_pose(self.model, actuator.robot(), self.lane);
             let place = |magnet| actuator.magnet_place(magnet, state, robot[0]);
             (0..actuator.magnets()).map(place).collect::<Vec<_>>()
         };
@@ -163,7 +164,7 @@ impl View<'_> {
     }
     /// The robot seen from above: x, z of its centre [m], and its heading [rad]; see [`Block::robot_pose`].
     pub fn robot_pose(&self) -> [f64; 3] {
-        self.block.robot_pose(self.model, self.lane)
+        self.block.robot_pose(self.model, Robot::AGENT, self.lane)
     }
     /// Time since the reset [s].
     pub fn time_s(&self) -> f64 {

@@ -67,7 +67,7 @@ pub fn magnets<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
 #[derive(Clone, Copy)]
 struct Sources<'a, I: Isa> {
     layout: &'a Layout,
-    /// x of the robot's centre [m].
+    /// x of the centre of the stage's robot [m].
     robot: I::F,
     /// x, y, in space z of the stage [m].
     stage: [I::F; 3],
@@ -86,7 +86,7 @@ impl<'a, I: Isa> Sources<'a, I> {
         let zero = isa.splat(0.0);
         let yaw = if D::AXES == 3 { sin_cos(at(3)) } else { (zero, zero) };
         let z = if D::AXES == 3 { at(2) } else { zero };
-        let robot = block.centre_x_of_lanes(isa, model);
+        let robot = block.centre_x_of_lanes(isa, model, stage.robot);
         Some(Self { layout: &stage.layout, robot, stage: [at(0), at(1), z], yaw })
     }
 }

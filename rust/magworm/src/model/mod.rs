@@ -9,6 +9,7 @@ mod inertia;
 mod line;
 mod magnetics;
 mod phases;
+mod robot;
 pub(crate) mod rows;
 mod shape;
 mod waves;
@@ -20,6 +21,7 @@ pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
+pub use robot::Robot;
 pub use rows::{Allowed, GREATEST, ROWS, Role, RowGroup};
 pub use shape::Shape;
 pub use waves::Wave;
@@ -42,6 +44,8 @@ pub struct Model {
     pub mesh: Mesh,
     /// Unknowns.
     pub coordinates: Coordinates,
+    /// Whose the nodes and magnets are.
+    pub robots: Vec<Robot>,
     /// Shape of the equations of a step.
     pub system: Chain,
     /// Axial springs.
@@ -166,6 +170,7 @@ impl Model {
             contacts,
             program,
             coordinates,
+            robots: vec![Robot::whole(&mesh)],
             mesh,
         };
         if integrator.is_explicit() {

@@ -3,7 +3,7 @@
 use super::kept::Kept;
 use super::rows::Rows;
 use super::status::{Counters, Status};
-use crate::actuator::ActuatorRows;
+use crate::actuator::{ActuatorRows, each};
 use crate::lanes::{InstructionSet, Row};
 use crate::model::rows::block_rows;
 use crate::model::{Model, ROWS};
@@ -28,7 +28,7 @@ macro_rules! declare {
             $($(#[doc = $work_doc])+ #[doc = concat!("[", $work_unit, "]")] pub $work: Rows<R>,)*
             /// The contact solve.
             pub contact: Workspace<R>,
-            /// The robot seen from above when a control step began, see [`Self::robot_pose`], shape [lanes].
+            /// The robot of the agent seen from above when a control step began, see [`Self::robot_pose`], shape [lanes].
             pub robot_before: Box<[[f64; 3]]>,
             /// The state before a call that may be stopped.
             pub(super) kept: Kept<R>,
@@ -87,9 +87,11 @@ macro_rules! declare {
 block_rows!(declare);
 
 impl<R: Row> Block<R> {
-    /// The rows of the actuators.
-    pub fn actuator_rows(&mut self) -> ActuatorRows<'_, R> {
+    /// The rows of an actuator, by its place in the list.
+    pub fn actuator_rows(&mut self, model: &Model, place: usize) -> ActuatorRows<'_, R> {
         let Self { stage, target, action, .. } = self;
-        ActuatorRows { state: stage, target, action }
+        let all = ActuatorRows { state: stage, target, action };
+        let mut each = each(&model.program.actuators, all);
+        each.nth(place).expect("an actuator of the model").1
     }
 }

@@ -99,48 +99,56 @@ impl<R: Row> Block<R> {
         [linear_m_s.x, linear_m_s.y, angular_rad_s.z]
     }
 
-    /// x of the robot's centre in one lane [m]: mean of its magnets, or of its nodes where it has none.
-    pub fn centre_x(&self, model: &Model, lane: usize) -> f64 {
-        self.centre(model, 0, lane)
+    /// x of a robot's centre in one lane [m]: mean of its magnets, or of its nodes where it has none.
+    pub fn centre_x(&self, model: &Model, robot: usize, lane: usize) -> f64 {
+        self.centre(model, robot, 0, lane)
     }
 
-    /// The same in every lane, 0 where a robot has no magnets.
+    /// The same in every lane, 0 where the robot has no magnets.
     #[inline(always)]
-    pub fn centre_x_of_lanes<I: Isa<Row = R>>(&self, isa: I, model: &Model) -> I::F {
+    pub fn centre_x_of_lanes<I: Isa<Row = R>>(&self, isa: I, model: &Model, robot: usize) -> I::F {
+        let bodies = model.bodies_of(robot);
         let mut sum = isa.splat(0.0);
-        for &dof in &model.coordinates.bodies {
+        for &dof in bodies {
             sum = sum + isa.load(&self.q[dof]);
         }
-        sum / (model.magnets().max(1) as f64)
+        sum / (bodies.len().max(1) as f64)
     }
 
-    /// The robot seen from above in one lane: x, z of its centre [m], and its heading [rad].
+    /// A robot seen from above in one lane: x, z of its centre [m], and its heading [rad].
     ///
     /// The heading is the yaw that would turn a straight robot along x so that its tail lies in the same
     /// direction from its head as that of this one.
-    pub fn robot_pose(&self, model: &Model, lane: usize) -> [f64; 3] {
+    pub fn robot_pose(&self, model: &Model, robot: usize, lane: usize) -> [f64; 3] {
         if model.dimensions() == 2 {
-            return [self.centre_x(model, lane), 0.0, 0.0];
+            return [self.centre_x(model, robot, lane), 0.0, 0.0];
         }
-        let [head, tail] = match model.coordinates.bodies.as_slice() {
-            [head, .., tail] => [*head, *tail].map(|dof| self.vector(&self.q, dof, 3, lane)),
-            _ => [0, model.nodes() - 1].map(|node| self.node_position(model, node, lane)),
-        };
+        let [head, tail] = self.ends(model, robot, lane);
         let along = tail - head;
         let heading = atan2(-along.z, along.x);
-        [self.centre(model, 0, lane), self.centre(model, 2, lane), heading]
+        [self.centre(model, robot, 0, lane), self.centre(model, robot, 2, lane), heading]
+    }
+
+    /// First and last magnet in space, or node where a robot has fewer than two magnets.
+    fn ends(&self, model: &Model, robot: usize, lane: usize) -> [Vector3<f64>; 2] {
+        let nodes = &model.robots[robot].nodes;
+        match model.bodies_of(robot) {
+            [head, .., tail] => [*head, *tail].map(|dof| self.vector(&self.q, dof, 3, lane)),
+            _ => [nodes.start, nodes.end - 1].map(|node| self.node_position(model, node, lane)),
+        }
     }
 
     /// Mean along an axis.
-    fn centre(&self, model: &Model, axis: usize, lane: usize) -> f64 {
-        let magnets = model.magnets();
-        if magnets == 0 {
-            let nodes = model.nodes();
-            let sum: f64 = (0..nodes).map(|n| self.node_position(model, n, lane)[axis]).sum();
-            return sum / nodes as f64;
+    fn centre(&self, model: &Model, robot: usize, axis: usize, lane: usize) -> f64 {
+        let bodies = model.bodies_of(robot);
+        if bodies.is_empty() {
+            let nodes = model.robots[robot].nodes.clone();
+            let count = nodes.len();
+            let sum: f64 = nodes.map(|n| self.node_position(model, n, lane)[axis]).sum();
+            return sum / count as f64;
         }
-        let places = model.coordinates.bodies.iter().map(|&dof| self.q[dof + axis][lane].f64());
-        places.sum::<f64>() / magnets as f64
+        let places = bodies.iter().map(|&dof| self.q[dof + axis][lane].f64());
+        places.sum::<f64>() / bodies.len() as f64
     }
 
     fn tangent(&self, model: &Model, body: usize, lane: usize) -> Vector3<f64> {

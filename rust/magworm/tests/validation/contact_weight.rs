@@ -45,9 +45,9 @@ fn validates_creep_over_a_far_drive() {
     for preset in ["paper-3", "paper-5"] {
         let mut world = World::new(preset, &edits);
         world.run(4.0);
-        let before = world.block.centre_x(&world.model, 0);
+        let before = world.block.centre_x(&world.model, 0, 0);
         world.run(1.0);
-        let creep = world.block.centre_x(&world.model, 0) - before;
+        let creep = world.block.centre_x(&world.model, 0, 0) - before;
         case.inside(format!("creep, {preset}"), "m/s", creep, -1e-9..=1e-9);
     }
     case.finish();

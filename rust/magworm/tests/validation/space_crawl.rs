@@ -35,7 +35,7 @@ fn crawl(preset: &str, motion: &str, duration_s: f64, dimensions: &str) -> Crawl
         }
     }
     seen.stride_m = start - place(&world, last)[0];
-    seen.heading_rad = world.block.robot_pose(&world.model, 0)[2];
+    seen.heading_rad = world.block.robot_pose(&world.model, 0, 0)[2];
     seen
 }
 

@@ -66,7 +66,7 @@ fn thrown(step_s: f64) -> ([f64; 3], f64) {
     world.run(0.3);
     assert!(world.quickest().0 < 1e-9, "still sliding at {} m/s", world.quickest().0);
     let went = world.centre().1 - before;
-    ([went.x, went.z, world.block.robot_pose(&world.model, 0)[2]], gyration_m2)
+    ([went.x, went.z, world.block.robot_pose(&world.model, 0, 0)[2]], gyration_m2)
 }
 
 /// A rigid rod on two points slides and turns: half the weight is on either whatever it does, so its motion is a set of

@@ -162,12 +162,12 @@ fn validates_space_spinning_block() {
         let mut world = foot(&[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")]);
         world.run(0.1);
         let (mass, before) = world.centre();
-        let start = world.block.robot_pose(&world.model, 0)[2];
+        let start = world.block.robot_pose(&world.model, 0, 0)[2];
         let dof = world.model.coordinates.bodies[0];
         let spin = world.block.mass[dof + 4][0];
         world.set_flow(|_| Vector::zeros(), Vector::y() * rate);
         world.run(0.1);
-        let turned = world.block.robot_pose(&world.model, 0)[2] - start;
+        let turned = world.block.robot_pose(&world.model, 0, 0)[2] - start;
         let arm = HALF_M[0].hypot(HALF_M[1]);
         let exact = rate * rate * spin / (2.0 * DYNAMIC * mass * G * arm) - 0.5 * rate.abs() * 1e-4;
         case.relative(
