@@ -59,7 +59,9 @@ pub mod internals {
     pub use crate::contact::ContactMode;
     pub use crate::draws::Draws;
     pub use crate::elastic::{Rod, kinematics};
-    pub use crate::model::{Allowed, Anchor, Frame, PairModel, Phase, ROWS, Role, RowGroup, Wave};
+    pub use crate::model::{
+        Allowed, Anchor, Frame, PairModel, Phase, ROWS, Robot, Role, RowGroup, Wave,
+    };
     pub use crate::record::{Recording, Watch, record};
     pub use crate::reset::{reset, scene_start};
     pub use crate::state::{Block, Rows};
