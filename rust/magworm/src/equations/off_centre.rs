@@ -62,8 +62,8 @@ pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, g
         let (before, after) =
             (D::axes_before(isa, block, body.body), D::axes_after(isa, model, block, body.body));
         let share = one_over(isa.load(&block.mass[body.dof]));
-        let arm = |axes| first_moment::<D, I>(isa, block, body, axes).map(|s| s * share);
-        let (from, to) = (arm(&before), arm(&after));
+        let from = first_moment::<D, I>(isa, block, body, &before).map(|s| s * share);
+        let to = first_moment::<D, I>(isa, block, body, &after).map(|s| s * share);
         let rate = rotation::<D, I>(isa, &block.next, body);
         let swing = cross(&rate, &from);
         let rate = if D::AXES == 2 {
