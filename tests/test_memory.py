@@ -10,6 +10,9 @@ from magworm_gym import Batch, MagWormVectorEnv, Scene, record_scenes
 ROOM = 100_000_000
 """Address space that a limited process has left [bytes]."""
 
+ROOM_OF_THREADS = 500_000_000
+"""The same where threads allocate: the C library reserves 64 MB for each."""
+
 CALLS = {
     "batch": "Batch(paper, n, threads=2)",
     "scalar batch": 'Batch(paper, n, lanes="scalar", threads=1)',
@@ -56,7 +59,8 @@ print("goes on")
 @pytest.mark.parametrize("call", CALLS)
 def test_a_limited_process_lives_on(call: str) -> None:
     """What grows until it does not fit any more meets the limit from near by."""
-    program = PROGRAM.format(room=ROOM, call=CALLS[call])
+    room = ROOM_OF_THREADS if "threads=2" in CALLS[call] or call == "copies" else ROOM
+    program = PROGRAM.format(room=room, call=CALLS[call])
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300)
     assert run.returncode == 0, f"{run.returncode}: {run.stderr[-500:]}"
     first, last = run.stdout.splitlines()

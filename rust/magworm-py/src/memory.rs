@@ -11,16 +11,25 @@ const SMALL: usize = 1 << 20;
 /// From here on the machine is asked what it has [bytes].
 const LARGE: usize = 64 << 20;
 
-/// Checks that a call may use so many bytes, in however many pieces.
+/// Most that is asked for beyond what pieces hold [bytes].
+const PIECES: usize = 1 << 30;
+
+/// Checks that a call may use so many bytes in small pieces. An allocator that may not grow any more maps whole pages for
+/// each, which takes several times as much.
 ///
 /// # Errors
 /// The machine has less to give, or a limit of the process is in the way.
 pub fn check_room(what: &str, bytes: usize) -> PyResult<()> {
+    check(what, bytes, bytes.saturating_mul(4).min(PIECES))
+}
+
+/// The same with another number of bytes that are spare.
+fn check(what: &str, bytes: usize, spare: usize) -> PyResult<()> {
     if bytes < SMALL {
         return Ok(());
     }
-    // Reserving is refused beyond a limit of the process, and nothing is written. Pieces take a little more.
-    let reserved = Vec::<u8>::new().try_reserve_exact(bytes.saturating_add(bytes / 8));
+    // Reserving is refused beyond a limit of the process, and nothing is written.
+    let reserved = Vec::<u8>::new().try_reserve_exact(bytes.saturating_add(spare));
     if reserved.is_err() || (bytes >= LARGE && bytes > free_bytes()) {
         return Err(missing(what, bytes));
     }
@@ -30,7 +39,7 @@ pub fn check_room(what: &str, bytes: usize) -> PyResult<()> {
 /// An empty vector with room for so many numbers.
 pub fn reserved<T>(what: &str, count: usize) -> PyResult<Vec<T>> {
     let bytes = count.saturating_mul(size_of::<T>());
-    check_room(what, bytes)?;
+    check(what, bytes, 0)?;
     let mut numbers = Vec::new();
     numbers.try_reserve_exact(count).map_err(|_| missing(what, bytes))?;
     Ok(numbers)
