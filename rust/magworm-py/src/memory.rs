@@ -14,13 +14,16 @@ const LARGE: usize = 64 << 20;
 /// Most that is asked for beyond what pieces hold [bytes].
 const PIECES: usize = 1 << 30;
 
+/// What allocators reserve at a time for threads, whatever these ask for: four heaps of the GNU C library [bytes].
+const HEAPS: usize = 4 << 26;
+
 /// Checks that a call may use so many bytes in small pieces. An allocator that may not grow any more maps whole pages for
 /// each, which takes several times as much.
 ///
 /// # Errors
 /// The machine has less to give, or a limit of the process is in the way.
 pub fn check_room(what: &str, bytes: usize) -> PyResult<()> {
-    check(what, bytes, bytes.saturating_mul(4).min(PIECES))
+    check(what, bytes, HEAPS + bytes.saturating_mul(4).min(PIECES))
 }
 
 /// The same with another number of bytes that are spare.
