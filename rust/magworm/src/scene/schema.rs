@@ -93,7 +93,10 @@ impl Kind {
 
 /// A number as a person writes it: no exponent near 1.
 pub(super) fn number(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() || (1e-3..1e5).contains(&value.abs()) {
+    if value == 0.0 {
+        // Without a sign, as the zeros of a scene are.
+        "0".into()
+    } else if !value.is_finite() || (1e-3..1e5).contains(&value.abs()) {
         format!("{value}")
     } else {
         format!("{value:e}")
