@@ -47,7 +47,7 @@ fn refuses_wrong_types() {
             "is 1; allowed: a list of at most 32, each a whole number from 0 to 31",
         ),
         ("field", "1.0", "is 1; allowed: a table with x_t, y_t, z_t"),
-        ("body", "3", "is 3; allowed: a table whose kind is one of worm, rod"),
+        ("body", "3", "is 3; allowed: a table whose kind is one of worm, rod, segments"),
     ] {
         refuses("example", path, value, &format!("{path} {rest}"));
     }
