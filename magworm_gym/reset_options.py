@@ -28,6 +28,12 @@ def start_limits(dimensions: int) -> dict[str, float]:
     return START_LIMITS if dimensions == 2 else START_LIMITS_IN_SPACE
 
 
+def furthest_start(dimensions: int) -> float:
+    """The largest magnitude of a number of a start that :func:`read_options` has checked [m, rad]."""
+    limits = start_limits(dimensions).items()
+    return max(float(np.deg2rad(limit)) if name.endswith("_deg") else limit for name, limit in limits)
+
+
 @dataclass(frozen=True)
 class ResetOptions:
     """Checked options for N environments with M magnets each.

@@ -22,7 +22,7 @@ from magworm_gym.drawing import Drawing, Frame
 from magworm_gym.draws import generator_of, next_episodes, uniform
 from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import judged, step_infos
-from magworm_gym.reset_options import equipped, read_options, start_limits
+from magworm_gym.reset_options import equipped, furthest_start, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import load_scene
 from magworm_gym.snapshot import COUNT, FINITE, Limits
@@ -336,12 +336,12 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def _limits(self) -> dict[str, Limits]:
         """What numbers of a state may be."""
-        option = self._task.goal_option
+        option, furthest = self._task.goal_option, furthest_start(self.scene.dimensions)
         return {
             "_seeds": Limits(0, SEED_LIMIT - 1),
             "_episodes": Limits(-1, COUNT.high),
             "_elapsed_steps": COUNT,
-            "_starts": Limits(-10.0, 10.0, missing=True),
+            "_starts": Limits(-furthest, furthest, missing=True),
             "_goals": Limits(-option.limit, option.limit, missing=True) if option else FINITE,
         }
 
