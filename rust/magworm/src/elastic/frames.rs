@@ -137,7 +137,7 @@ fn angular_momentum<I: Isa>(
 
 /// Tangent, up and side of a magnet.
 #[inline(always)]
-fn body_axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I::F>; 3] {
+pub fn body_axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I::F>; 3] {
     let rows = &block.frame[9 * body..][..9];
     [Vector::load(isa, rows), Vector::load(isa, &rows[3..]), Vector::load(isa, &rows[6..])]
 }

@@ -16,7 +16,6 @@ mod kinematics;
 mod rod;
 mod stretch;
 mod twist;
-pub mod vector;
 
 pub use frames::axes;
 pub use kinematics::{place, update as kinematics};

@@ -15,14 +15,14 @@ pub trait Rod: Dim {
     /// Turns the frames over a step in the lanes of a mask.
     fn rotate_frames<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, mask: I::M);
     /// Axes of a magnet at the start of a step.
-    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3];
+    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I::F>; 3];
     /// Axes of a magnet at the end of a step, once its unknowns or its frame are those there.
     fn axes_after<I: Isa>(
         isa: I,
         model: &Model,
         block: &Block<I::Row>,
         body: usize,
-    ) -> [[I::F; 3]; 3];
+    ) -> [Vec3<I::F>; 3];
     /// A normal of an element with tangent t, of as many as a surface has tangents.
     fn normal<I: Isa>(
         isa: I,
@@ -61,7 +61,7 @@ impl Rod for Plane {
     #[inline(always)]
     fn rotate_frames<I: Isa>(_: I, _: &Model, _: &mut Block<I::Row>, _: I::M) {}
     #[inline(always)]
-    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3] {
+    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I::F>; 3] {
         let [cos, sin] = Vector::<_, 2>::load(isa, &block.frame[2 * body..]).0;
         planar_axes(cos, sin)
     }
@@ -71,7 +71,7 @@ impl Rod for Plane {
         model: &Model,
         block: &Block<I::Row>,
         body: usize,
-    ) -> [[I::F; 3]; 3] {
+    ) -> [Vec3<I::F>; 3] {
         let (sin, cos) = sin_cos(isa.load(&block.q[model.coordinates.bodies[body] + 2]));
         planar_axes(cos, sin)
     }
@@ -115,8 +115,8 @@ impl Rod for Space {
         frames::rotate_frames(isa, model, block, mask);
     }
     #[inline(always)]
-    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3] {
-        frames::axes(isa, block, body)
+    fn axes_before<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I::F>; 3] {
+        frames::body_axes(isa, block, body)
     }
     #[inline(always)]
     fn axes_after<I: Isa>(
@@ -124,10 +124,10 @@ impl Rod for Space {
         model: &Model,
         block: &Block<I::Row>,
         body: usize,
-    ) -> [[I::F; 3]; 3] {
+    ) -> [Vec3<I::F>; 3] {
         let frame = &block.director[6 * model.mesh.magnets[body].element..][..6];
         let (up, tangent) = (Vec3::load(isa, frame), Vec3::load(isa, &frame[3..]));
-        [tangent.0, up.0, tangent.cross(up).0]
+        [tangent, up, tangent.cross(up)]
     }
     #[inline(always)]
     fn normal<I: Isa>(
@@ -154,7 +154,7 @@ impl Rod for Space {
 
 /// Tangent, up and side in the plane.
 #[inline(always)]
-fn planar_axes<F: Real>(cos: F, sin: F) -> [[F; 3]; 3] {
+fn planar_axes<F: Real>(cos: F, sin: F) -> [Vec3<F>; 3] {
     let (zero, one) = (cos.splat(0.0), cos.splat(1.0));
-    [[cos, sin, zero], [-sin, cos, zero], [zero, zero, one]]
+    [[cos, sin, zero], [-sin, cos, zero], [zero, zero, one]].map(Vector)
 }

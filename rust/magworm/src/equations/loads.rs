@@ -2,10 +2,9 @@
 
 use super::{hold, off_centre};
 use crate::actuator::{Actuator, Layout, states};
-use crate::elastic::vector::cross;
 use crate::elastic::{self, Rod};
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Dim, Isa, Mask, Real};
+use crate::lanes::{Dim, Isa, Mask, Real, Vector};
 use crate::model::{Magnetics, Model, PairModel};
 use crate::state::Block;
 
@@ -208,7 +207,7 @@ fn spatial_wrench<I: Isa>(
         block.counters.wrenches += 1;
     }
     if let Some(arm) = arm {
-        let moment = cross(&arm, &[total[0], total[1], total[2]]);
+        let moment = Vector(arm).cross(Vector([total[0], total[1], total[2]]));
         (0..3).for_each(|k| total[3 + k] = total[3 + k] + moment[k]);
     }
 }

@@ -10,8 +10,7 @@
 //! X and v follow from both. That is the centrifugal force, and free flight keeps both momenta to rounding.
 
 use crate::elastic::Rod;
-use crate::elastic::vector::{cross, dot};
-use crate::lanes::{Isa, Real};
+use crate::lanes::{Components, Isa, Real, Vec3, Vector};
 use crate::model::{Model, OffCentre};
 use crate::state::Block;
 
@@ -26,7 +25,7 @@ pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         let s = first_moment::<D, I>(isa, block, body, &axes);
         let velocity = vector::<D, I>(isa, &block.v, body.dof);
         let rate = rotation::<D, I>(isa, &block.v, body);
-        let (push, spin) = (cross(&rate, &s), cross(&s, &velocity));
+        let (push, spin) = (rate.cross(s), s.cross(velocity));
         (0..D::AXES).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
         for (dof, k) in rotations::<D>(body) {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
@@ -34,7 +33,7 @@ pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
             set(isa, model, block, dof, body.dof + next, -s[last]);
             set(isa, model, block, dof, body.dof + last, s[next]);
         }
-        add_products::<D, I>(isa, model, block, body, &axes, &rate);
+        add_products::<D, I>(isa, model, block, body, &axes, rate);
     }
 }
 
@@ -46,10 +45,10 @@ pub fn gravity<D: Rod, I: Isa>(
     block: &mut Block<I::Row>,
     gravity_m_s2: [f64; 3],
 ) {
-    let pull = gravity_m_s2.map(|g| isa.splat(g * model.step_s));
+    let pull = Vector(gravity_m_s2.map(|g| isa.splat(g * model.step_s)));
     for body in &model.off_centre {
         let axes = D::axes_before(isa, block, body.body);
-        let torque = cross(&first_moment::<D, I>(isa, block, body, &axes), &pull);
+        let torque = first_moment::<D, I>(isa, block, body, &axes).cross(pull);
         rotations::<D>(body).for_each(|(dof, k)| add(isa, torque[k], &mut block.right[dof]));
     }
 }
@@ -59,19 +58,19 @@ pub fn gravity<D: Rod, I: Isa>(
 #[inline(always)]
 pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
     for body in &model.off_centre {
-        let (before, after) =
-            (D::axes_before(isa, block, body.body), D::axes_after(isa, model, block, body.body));
+        let before = D::axes_before(isa, block, body.body);
+        let after = D::axes_after(isa, model, block, body.body);
         let share = one_over(isa.load(&block.mass[body.dof]));
-        let from = first_moment::<D, I>(isa, block, body, &before).map(|s| s * share);
-        let to = first_moment::<D, I>(isa, block, body, &after).map(|s| s * share);
+        let from = first_moment::<D, I>(isa, block, body, &before) * share;
+        let to = first_moment::<D, I>(isa, block, body, &after) * share;
         let rate = rotation::<D, I>(isa, &block.next, body);
-        let swing = cross(&rate, &from);
+        let swing = rate.cross(from);
         let rate = if D::AXES == 2 {
             rate
         } else {
-            turned_rate(isa, block, body, share, &rate, [&before, &after])
+            turned_rate(isa, block, body, share, rate, [&before, &after])
         };
-        let swung = cross(&rate, &to);
+        let swung = rate.cross(to);
         for k in 0..D::AXES {
             let velocity = isa.load(&block.next[body.dof + k]) + swing[k] - swung[k];
             let place = isa.load(&block.q[body.dof + k]);
@@ -90,12 +89,12 @@ fn turned_rate<I: Isa>(
     block: &Block<I::Row>,
     body: &OffCentre,
     share: I::F,
-    rate: &[I::F; 3],
-    [before, after]: [&[[I::F; 3]; 3]; 2],
-) -> [I::F; 3] {
+    rate: Vec3<I::F>,
+    [before, after]: [&[Vec3<I::F>; 3]; 2],
+) -> Vec3<I::F> {
     let inertia = central_inertia(isa, block, body, share);
-    let momentum = world(before, &product(&inertia, &within(before, rate)));
-    world(after, &solved(&inertia, &within(after, &momentum)))
+    let momentum = world(before, along(&inertia, along(before, rate)));
+    world(after, solved(&inertia, along(after, momentum)))
 }
 
 /// Inertia about the centre of mass along the body's own axes.
@@ -105,10 +104,10 @@ fn central_inertia<I: Isa>(
     block: &Block<I::Row>,
     body: &OffCentre,
     share: I::F,
-) -> [[I::F; 3]; 3] {
-    let s = [0, 1, 2].map(|k| isa.load(&block.off_centre[body.row + k]));
-    let square = dot(&s, &s) * share;
-    let mut inertia = [[isa.splat(0.0); 3]; 3];
+) -> [Vec3<I::F>; 3] {
+    let s = Vec3::load(isa, &block.off_centre[body.row..]);
+    let square = s.norm_squared() * share;
+    let mut inertia = [Vec3::splat(isa.splat(0.0)); 3];
     for k in 0..3 {
         inertia[k][k] = isa.load(&block.mass[body.dof + 3 + k]) - (square - s[k] * s[k] * share);
     }
@@ -126,13 +125,13 @@ fn add_products<D: Rod, I: Isa>(
     model: &Model,
     block: &mut Block<I::Row>,
     body: &OffCentre,
-    axes: &[[I::F; 3]; 3],
-    rate: &[I::F; 3],
+    axes: &[Vec3<I::F>; 3],
+    rate: Vec3<I::F>,
 ) {
     let first = body.dof + D::AXES;
     for (at, (k, l)) in PRODUCTS.into_iter().take(D::PRODUCTS).enumerate() {
         let entry = isa.load(&block.off_centre[body.row + 3 + at]);
-        let (by_k, by_l) = (dot(&axes[k], rate) * entry, dot(&axes[l], rate) * entry);
+        let (by_k, by_l) = (axes[k].dot(rate) * entry, axes[l].dot(rate) * entry);
         for row in 0..3 {
             add(isa, axes[k][row] * by_l + axes[l][row] * by_k, &mut block.right[first + row]);
             for column in 0..=row {
@@ -150,15 +149,15 @@ fn first_moment<D: Rod, I: Isa>(
     isa: I,
     block: &Block<I::Row>,
     body: &OffCentre,
-    axes: &[[I::F; 3]; 3],
-) -> [I::F; 3] {
-    world(axes, &vector::<D, I>(isa, &block.off_centre, body.row))
+    axes: &[Vec3<I::F>; 3],
+) -> Vec3<I::F> {
+    world(axes, vector::<D, I>(isa, &block.off_centre, body.row))
 }
 
 /// A vector of the first D components, 0 beyond.
 #[inline(always)]
-fn vector<D: Rod, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> [I::F; 3] {
-    let mut vector = [isa.splat(0.0); 3];
+fn vector<D: Rod, I: Isa>(isa: I, rows: &[I::Row], first: usize) -> Vec3<I::F> {
+    let mut vector = Vec3::splat(isa.splat(0.0));
     (0..D::AXES).for_each(|k| vector[k] = isa.load(&rows[first + k]));
     vector
 }
@@ -172,8 +171,8 @@ fn rotations<D: Rod>(body: &OffCentre) -> impl Iterator<Item = (usize, usize)> +
 
 /// Angular velocity of a body, 0 about the axes that it does not turn about.
 #[inline(always)]
-fn rotation<D: Rod, I: Isa>(isa: I, rows: &[I::Row], body: &OffCentre) -> [I::F; 3] {
-    let mut rate = [isa.splat(0.0); 3];
+fn rotation<D: Rod, I: Isa>(isa: I, rows: &[I::Row], body: &OffCentre) -> Vec3<I::F> {
+    let mut rate = Vec3::splat(isa.splat(0.0));
     rotations::<D>(body).for_each(|(dof, k)| rate[k] = isa.load(&rows[dof]));
     rate
 }
@@ -202,24 +201,19 @@ fn set<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, a: usize, b: us
 
 /// Σ a_k v_k: from the axes a to x, y, z.
 #[inline(always)]
-fn world<F: Real>(axes: &[[F; 3]; 3], v: &[F; 3]) -> [F; 3] {
-    [0, 1, 2].map(|i| axes[0][i] * v[0] + axes[1][i] * v[1] + axes[2][i] * v[2])
+fn world<F: Real>(axes: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
+    axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2]
 }
 
-/// Components along the axes.
+/// A v by the rows of A: components along axes, or the momentum that an inertia has.
 #[inline(always)]
-fn within<F: Real>(axes: &[[F; 3]; 3], v: &[F; 3]) -> [F; 3] {
-    [0, 1, 2].map(|k| dot(&axes[k], v))
-}
-
-#[inline(always)]
-fn product<F: Real>(a: &[[F; 3]; 3], x: &[F; 3]) -> [F; 3] {
-    [0, 1, 2].map(|k| dot(&a[k], x))
+fn along<F: Real>(rows: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
+    Vector(rows.map(|row| row.dot(v)))
 }
 
 /// x of A x = b for a symmetric positive A, by L D Lᵀ; 0 where A is 0, as for a robot without mass.
 #[inline(always)]
-fn solved<F: Real>(a: &[[F; 3]; 3], b: &[F; 3]) -> [F; 3] {
+fn solved<F: Real>(a: &[Vec3<F>; 3], b: Vec3<F>) -> Vec3<F> {
     let by_0 = one_over(a[0][0]);
     let (l1, l2) = (a[1][0] * by_0, a[2][0] * by_0);
     let by_1 = one_over(a[1][1] - l1 * a[1][0]);
@@ -230,5 +224,5 @@ fn solved<F: Real>(a: &[[F; 3]; 3], b: &[F; 3]) -> [F; 3] {
     let y2 = b[2] - l2 * b[0] - l3 * y1;
     let x2 = y2 * by_2;
     let x1 = y1 * by_1 - l3 * x2;
-    [b[0] * by_0 - l1 * x1 - l2 * x2, x1, x2]
+    Vector([b[0] * by_0 - l1 * x1 - l2 * x2, x1, x2])
 }
