@@ -99,3 +99,9 @@ def rectangle(
     return np.array(
         [(x + cosine * a - sine * b, y + sine * a + cosine * b) for a, b in zip(along, across, strict=True)]
     )
+
+
+def turned(angle: float) -> NDArray[np.float64]:
+    """Along a body that is turned by an angle [rad], and up from it: rows x, y."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, sine], [-sine, cosine]])

@@ -1,7 +1,6 @@
 """The side view of one environment: robot, drive magnets, ground and trail."""
 
 import itertools
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
-from magworm_gym.render.outline import band, half, rectangle
+from magworm_gym.render.outline import band, half, rectangle, turned
 from magworm_gym.render.palette import (
     EYE,
     LETTER,
@@ -174,7 +173,7 @@ class SideView(Windowed):
             self._draw_rubber(region, camera, nodes, body)
             magnets = zip(poses, self._magnet_offset, self._magnet_size, self._magnet_direction, strict=True)
             for (pose, offset, size, direction), there in zip(magnets, present, strict=True):
-                place = (*(pose[:2] + offset @ _turned(pose[2])), pose[2])
+                place = (*(pose[:2] + offset @ turned(pose[2])), pose[2])
                 _draw_magnet(region, camera, place, size, direction if there else None)
 
     def _draw_rubber(self, region: Region, camera: Camera, nodes: Floats, body: Floats) -> None:
@@ -225,13 +224,7 @@ def _draw_magnet(
     if direction is None:
         region.polygon(camera.pixels(whole), None, REMOVED_EDGE, edge_px=1.0)
         return
-    north = direction @ _turned(pose[2])
+    north = direction @ turned(pose[2])
     region.polygon(camera.pixels(whole), SOUTH)
     region.polygon(camera.pixels(half(whole, north)), NORTH)
     region.polygon(camera.pixels(whole), None, MAGNET_EDGE, edge_px=1.0)
-
-
-def _turned(angle: float) -> Floats:
-    """Along a body and up from it, in x, y: rows."""
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return np.array([[cosine, sine], [-sine, cosine]])

@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene
 from magworm_gym.render import palette
-from magworm_gym.render.outline import band, rectangle
+from magworm_gym.render.outline import band, half, rectangle, turned
 from studies.paper.figures import colour
 
 Floats = NDArray[np.float64]
 MM = 1e3
+UPWARD = np.array([0.0, 1.0])
 
 
 def draw_robot(axes: Any, scene: Scene, recording: Recording, sample: int, share: float = 1.0) -> None:
@@ -29,16 +30,21 @@ def draw_robot(axes: Any, scene: Scene, recording: Recording, sample: int, share
     outline = MM * band(recording.nodes[sample], np.asarray(geometry["element_thickness_m"]))
     rubber, edge = colour(palette.RUBBER), colour(palette.RUBBER_EDGE)
     axes.add_patch(Polygon(outline, facecolor=rubber, edgecolor=edge, lw=0.8, alpha=share, zorder=3))
-    poses = recording.magnet_poses[sample].tolist()
-    magnets = zip(poses, geometry["magnet_size_m"], recording.present, geometry["polarity"], strict=True)
-    for pose, size, there, polarity in magnets:
-        draw_magnet(axes, pose, size[:2], polarity if there else 0.0, share)
+    sizes, offsets, directions = (
+        np.asarray(geometry[name])[:, :2] for name in ("magnet_size_m", "magnet_offset_m", "magnet_direction")
+    )
+    magnets = zip(
+        recording.magnet_poses[sample], sizes, offsets, directions, recording.present, strict=True
+    )
+    for (x, y, angle), size, offset, direction, there in magnets:
+        across, up = offset @ turned(angle)
+        draw_magnet(axes, (x + across, y + up, angle), size, direction if there else None, share)
 
 
 def draw_drive(axes: Any, scene: Scene, recording: Recording, sample: int) -> None:
     """Draws the drive magnets at one instant on axes in millimetres."""
     for x, y in recording.drive_positions[sample].tolist():
-        draw_magnet(axes, (x, y, 0.0), scene.geometry["drive_size_m"], 1.0, 1.0)
+        draw_magnet(axes, (x, y, 0.0), scene.geometry["drive_size_m"], UPWARD, 1.0)
 
 
 def draw_ground(axes: Any) -> None:
@@ -46,22 +52,22 @@ def draw_ground(axes: Any) -> None:
     axes.axhline(0.0, color=colour(palette.GROUND_LINE), lw=1.0, zorder=2)
 
 
-def draw_magnet(axes: Any, pose: Any, size_m: tuple[float, float], polarity: float, share: float) -> None:
-    """Draws a magnet: north red, south blue; polarity 0 for one that was taken out.
+def draw_magnet(axes: Any, pose: Any, size_m: Any, direction: Floats | None, share: float) -> None:
+    """Draws a magnet, cut across its direction into its two poles: north red, south blue.
 
     Args:
         axes: Axes in millimetres.
         pose: x [m], y [m], angle [rad].
         size_m: Length and height [m].
-        polarity: Positive for north up at rest.
+        direction: From south to north, along the magnet and up from it; None for one that was taken out,
+            which is an empty outline.
         share: Opacity.
     """
     (x, y, angle), (length, height) = pose, size_m
-    upper, lower = (palette.NORTH, palette.SOUTH) if polarity > 0.0 else (palette.SOUTH, palette.NORTH)
-    for bottom, top, pole in ((0.0, 0.5 * height, upper), (-0.5 * height, 0.0, lower)):
-        half = MM * rectangle(x, y, angle, length, bottom, top)
-        if polarity != 0.0:
-            axes.add_patch(Polygon(half, facecolor=colour(pole), edgecolor="none", alpha=share, zorder=4))
     whole = MM * rectangle(x, y, angle, length, -0.5 * height, 0.5 * height)
-    edge = colour(palette.MAGNET_EDGE if polarity else palette.REMOVED_EDGE)
+    if direction is not None:
+        for pole, north in ((palette.NORTH, direction), (palette.SOUTH, -direction)):
+            part = half(whole, north @ turned(angle))
+            axes.add_patch(Polygon(part, facecolor=colour(pole), edgecolor="none", alpha=share, zorder=4))
+    edge = colour(palette.REMOVED_EDGE if direction is None else palette.MAGNET_EDGE)
     axes.add_patch(Polygon(whole, facecolor="none", edgecolor=edge, lw=0.6, alpha=share, zorder=5))
