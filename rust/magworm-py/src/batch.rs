@@ -18,7 +18,7 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 /// Most environments of a batch.
-const MOST: usize = 1 << 24;
+const MAX_ENVIRONMENTS: usize = 1 << 24;
 
 /// N environments of one scene, advanced together.
 #[pyclass(module = "magworm_gym._magworm", frozen)]
@@ -49,7 +49,7 @@ impl Batch {
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let model = arguments::scene("scene", scene)?.get().model.clone();
-        let count = whole("num_envs", num_envs, 1..=MOST)?;
+        let count = whole("num_envs", num_envs, 1..=MAX_ENVIRONMENTS)?;
         let names = [("wide", LaneChoice::Wide), ("scalar", LaneChoice::Scalar)];
         let (lanes, threads) = (word("lanes", lanes, names)?, arguments::threads(threads)?);
         // First of all, so that what threads take is gone when the room is measured.

@@ -45,7 +45,7 @@ pub fn stop_unsound<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::
 #[inline(always)]
 fn next_is_finite<I: Isa>(isa: I, block: &Block<I::Row>) -> I::M {
     let mut sum = isa.splat(0.0);
-    for row in block.next.iter() {
+    for row in block.end_velocity.iter() {
         sum = sum + isa.load(row).abs();
     }
     sum.lt(isa.splat(INFINITE))

@@ -85,10 +85,10 @@ fn run<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: 
         ),
         Phase::System => solve(isa, model, block),
         Phase::ContactPoints => contact::detect::<D, I>(isa, model, block),
-        Phase::Condensation => model.system.condense(isa, &mut block.matrix, &mut block.right),
+        Phase::Condensation => model.system.condense(isa, &mut block.matrix, &mut block.rhs),
         Phase::Contact => contact::solve::<D, I>(isa, model, block),
         Phase::Recovery => {
-            model.system.recover(isa, &block.matrix, &block.right, &mut block.next);
+            model.system.recover(isa, &block.matrix, &block.rhs, &mut block.end_velocity);
         }
         Phase::Commit => isa.vectorize(
             #[inline(always)]
@@ -104,8 +104,8 @@ fn run<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: 
 /// Velocities at the end of a step without ground.
 fn solve<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     model.system.kept().factor(isa, &mut block.matrix);
-    block.next.copy_from_slice(&block.right);
-    model.system.kept().solve(isa, &block.matrix, &mut block.next);
+    block.end_velocity.copy_from_slice(&block.rhs);
+    model.system.kept().solve(isa, &block.matrix, &mut block.end_velocity);
     block.counters.factorisations += 1;
 }
 
@@ -117,15 +117,17 @@ fn commit<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for lane in 0..I::Row::LANES {
         block.step_count[lane] += u64::from(block.running[0][lane].f64() == 1.0);
     }
-    let (lag, size) = (model.scene.solver.integrator.coefficients().lag, model.coordinates.count);
-    let (places, speeds) = (&mut block.q[..size], &mut block.v[..size]);
-    let (ends, lags) = (&block.next[..size], &mut block.lagged[..size]);
+    let dissipation = model.scene.solver.integrator.coefficients().numerical_dissipation;
+    let size = model.coordinates.count;
+    let (places, velocities) = (&mut block.q[..size], &mut block.v[..size]);
+    let (ends, of_springs) = (&block.end_velocity[..size], &mut block.spring_velocity[..size]);
     for dof in 0..size {
-        let (q, v) = (isa.load(&places[dof]), isa.load(&speeds[dof]));
-        let (next, lagged) = (isa.load(&ends[dof]), isa.load(&lags[dof]));
-        isa.store(I::F::select(go, next + (v - next) * lag, lagged), &mut lags[dof]);
-        isa.store(I::F::select(go, next, v), &mut speeds[dof]);
-        isa.store(I::F::select(go, q + next * model.step_s, q), &mut places[dof]);
+        let (q, v) = (isa.load(&places[dof]), isa.load(&velocities[dof]));
+        let (end, of_spring) = (isa.load(&ends[dof]), isa.load(&of_springs[dof]));
+        let averaged = end + (v - end) * dissipation;
+        isa.store(I::F::select(go, averaged, of_spring), &mut of_springs[dof]);
+        isa.store(I::F::select(go, end, v), &mut velocities[dof]);
+        isa.store(I::F::select(go, q + end * model.step_s, q), &mut places[dof]);
     }
     D::rotate_frames(isa, model, block, go);
     equations::carry::<D, I>(isa, model, block, go);

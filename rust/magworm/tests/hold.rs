@@ -79,16 +79,16 @@ impl Hand {
     }
 
     fn magnets(&mut self, model: &Model, block: &mut Block<[f64; WIDE]>) {
-        let before = block.right.to_vec();
-        block.right.fill([0.0; WIDE]);
+        let before = block.rhs.to_vec();
+        block.rhs.fill([0.0; WIDE]);
         block.run_phase_on(InstructionSet::widest(), model, Phase::Magnets);
         for lane in 0..WIDE {
             let due = block.step_count[lane].is_multiple_of(self.interval);
-            for (push, new) in self.push.iter_mut().zip(block.right.iter()).filter(|_| due) {
+            for (push, new) in self.push.iter_mut().zip(block.rhs.iter()).filter(|_| due) {
                 push[lane] = new[lane];
             }
         }
-        for (dof, row) in block.right.iter_mut().enumerate() {
+        for (dof, row) in block.rhs.iter_mut().enumerate() {
             for lane in 0..WIDE {
                 row[lane] = before[dof][lane] + self.push[dof][lane];
             }

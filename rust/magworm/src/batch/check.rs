@@ -5,7 +5,7 @@ use crate::model::{Allowed, GREATEST, Model, ROWS, Role, RowGroup};
 use crate::scene::Parameter;
 
 /// Most solver steps of a robot: more are not told apart as times in `f64`.
-const MOST_STEPS: u64 = 1 << 53;
+const MAX_STEPS: u64 = 1 << 53;
 /// By how much a frame may miss unit lengths and right angles: far more than rounding does.
 const SKEW: f64 = 1e-2;
 
@@ -77,8 +77,8 @@ pub(super) fn check(
             return refuse(format!("{}[{place}]", group.name), rows[place], allowed);
         }
     }
-    if column.step_count() > MOST_STEPS {
-        let allowed = format!("0 to {MOST_STEPS}");
+    if column.step_count() > MAX_STEPS {
+        let allowed = format!("0 to {MAX_STEPS}");
         return refuse("step_count".into(), column.step_count() as f64, allowed);
     }
     if column.status().is_none() {

@@ -18,9 +18,9 @@ pub(super) fn magnet_wrenches<R: Row>(model: &Model, block: &Block<R>, lane: usi
     copy.status[0] = block.status[lane];
     apply_parameters(model, &mut copy, 0);
     run_phase(Scalar, model, &mut copy, Phase::Kinematics);
-    copy.right.iter_mut().for_each(|row| row[0] = 0.0);
+    copy.rhs.iter_mut().for_each(|row| row[0] = 0.0);
     run_phase(Scalar, model, &mut copy, Phase::Magnets);
     let size = model.sizes().body();
-    let impulses = model.coordinates.bodies.iter().flat_map(|&dof| &copy.right[dof..dof + size]);
+    let impulses = model.coordinates.bodies.iter().flat_map(|&dof| &copy.rhs[dof..dof + size]);
     impulses.map(|impulse| impulse[0] / model.step_s).collect()
 }

@@ -33,18 +33,18 @@ pub(super) fn begin<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::
     let symmetric = model.system.kept_entries(&block.matrix);
     let work = &mut block.contact;
     let (inverses, residuals) = (&mut *work.inverse_diagonal, &mut *work.free_residual);
-    let (iterate, rights) = (&mut *work.iterate, &*block.right);
+    let (iterate, rhs) = (&mut *work.iterate, &*block.rhs);
     let mut size = zero;
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        let right = isa.load(&rights[unknown]);
+        let entry = isa.load(&rhs[unknown]);
         let diagonal = isa.load(&symmetric[kept.at(row, row)]);
         // Multipliers have no mass; each of their equations is solved exactly.
         let heavy = diagonal.gt(zero);
         let inverse = I::F::select(heavy, one / I::F::select(heavy, diagonal, one), zero);
         isa.store(inverse, &mut inverses[row]);
-        isa.store(-right, &mut residuals[row]);
+        isa.store(-entry, &mut residuals[row]);
         isa.store(zero, &mut iterate[row]);
-        size = size + right * right * inverse;
+        size = size + entry * entry * inverse;
     }
     for c in 0..model.contacts.len() {
         let bias = ContactVector::<D, I::F>::load(isa, &work.bias, c);

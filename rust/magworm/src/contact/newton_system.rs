@@ -29,7 +29,7 @@ fn copy<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     unsymmetric::expand(isa, band, symmetric, &mut block.contact.matrix);
     let ghosts = band.half_bandwidth();
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.contact.solution[ghosts + row] = block.right[unknown];
+        block.contact.solution[ghosts + row] = block.rhs[unknown];
     }
 }
 
@@ -49,8 +49,8 @@ fn add_contacts<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>
         let arm = D::Vector::load(isa, &block.contact.arm[D::AXES * c..]);
         let frame = surface::frame(pair.surface);
         let force = frame.vector(hessian.impulse);
-        let right = &mut block.contact.solution[ghosts + pair.row..];
-        add_force::<D, I>(isa, right, pair.rigid, arm, force);
+        let rhs = &mut block.contact.solution[ghosts + pair.row..];
+        add_force::<D, I>(isa, rhs, pair.rigid, arm, force);
         let place = [unsymmetric::at(band, pair.row, pair.row), stride];
         let columns = frame.matrix(hessian.columns());
         add_block::<D, I>(isa, &mut block.contact.matrix, place, pair.rigid, arm, &columns);

@@ -90,7 +90,7 @@ pub fn solve<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         solve_contact::<D, I>(isa, model, &law, block, running);
     }
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
-        block.next[unknown] = block.contact.iterate[row];
+        block.end_velocity[unknown] = block.contact.iterate[row];
     }
 }
 

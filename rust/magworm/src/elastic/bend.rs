@@ -5,7 +5,7 @@
 //! n = ẑ × t, so ∂κ/∂e = −κ′ n_e/|e| and ∂κ/∂f = κ′ n_f/|f| with κ′ = dκ/dφ, which is 1 or 1 + κ²/4: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
-use super::{Equations, MOST, Positions, Scheme, Springs, generalised_gradient};
+use super::{Equations, MAX_STENCIL, Positions, Scheme, Springs, generalised_gradient};
 use crate::lanes::math::atan2;
 use crate::lanes::{Components, Dim, Isa, Plane, Real, Vector};
 use crate::model::Model;
@@ -33,12 +33,12 @@ fn normal<F: Real>(t: Vector<F, 2>) -> Vector<F, 2> {
 /// Adds all bending springs to the equations of a step.
 #[inline(always)]
 pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme: Scheme<I::F>) {
-    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
+    let (matrix, rhs, v) = (&mut *block.matrix, &mut *block.rhs, &*block.spring_velocity);
     let (tangent, inverse_length) = (&*block.tangent, &*block.inverse_length);
     let positions = Positions { node: &block.node, q: &block.q };
     let law = model.scene.solver.curvature;
-    let mut equations = Equations { matrix, right, v };
-    let mut gradient = [isa.splat(0.0); MOST];
+    let mut equations = Equations { matrix, rhs, v };
+    let mut gradient = [isa.splat(0.0); MAX_STENCIL];
     for spring in &model.bend {
         let (e, f) = (spring.node - 1, spring.node);
         let te = Vector::load(isa, &tangent[2 * e..]);

@@ -63,7 +63,7 @@ fn unit<F: Real>(a: Vec3<F>) -> Vec3<F> {
 pub fn rotate_frames<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, mask: I::M) {
     for (element, twist) in model.coordinates.twists.iter().enumerate() {
         let Some(dof) = *twist else { continue };
-        let angle = isa.load(&block.next[dof]) * (0.5 * model.step_s);
+        let angle = isa.load(&block.end_velocity[dof]) * (0.5 * model.step_s);
         let up: Vec3<I::F> = Vector::load(isa, &block.director[6 * element..]);
         let side = Vector::load(isa, &block.side[3 * element..]);
         // Cayley's rotation about the tangent: tan of half the angle is ½ ω Δt.
@@ -89,7 +89,7 @@ fn rotate_magnet<I: Isa>(
     mask: I::M,
 ) {
     let element = model.mesh.magnets[body].element;
-    let rate = Vector::load(isa, &block.next[dof + 3..]);
+    let rate = Vector::load(isa, &block.end_velocity[dof + 3..]);
     let momentum = angular_momentum(isa, block, body, dof, rate);
     let half = rate * isa.splat(0.5 * model.step_s);
     let frame = &block.director[6 * element..][..6];
@@ -169,7 +169,7 @@ pub fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) 
                     isa.store(entry, &mut block.matrix[place]);
                 }
             }
-            isa.store(momentum, &mut block.right[first + row]);
+            isa.store(momentum, &mut block.rhs[first + row]);
         }
     }
 }

@@ -24,7 +24,7 @@ pub use stretch::assemble as stretch;
 
 use crate::integrate::Coefficients;
 use crate::lanes::{Components, Dim, Isa, Real, Vec3};
-use crate::model::{MOST, Spin, Stencil};
+use crate::model::{MAX_STENCIL, Spin, Stencil};
 
 /// How the impulse of a spring enters the equations of a step.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +76,7 @@ pub struct Equations<'a, R> {
     /// Banded matrix.
     pub matrix: &'a mut [R],
     /// Right-hand side, shape [unknowns].
-    pub right: &'a mut [R],
+    pub rhs: &'a mut [R],
     /// Velocities at the start of the step, as springs take them, shape [unknowns].
     pub v: &'a [R],
 }
@@ -91,7 +91,7 @@ pub fn generalised_gradient<D: Dim, I: Isa, const N: usize>(
     positions: Positions<'_, I::Row>,
     stencil: &Stencil,
     gradient: &[D::Vector<I::F>; N],
-    out: &mut [I::F; MOST],
+    out: &mut [I::F; MAX_STENCIL],
 ) {
     for slot in 0..stencil.count {
         out[slot] = isa.splat(0.0);
@@ -118,7 +118,12 @@ pub fn generalised_gradient<D: Dim, I: Isa, const N: usize>(
 
 /// Adds the gradient over the twist of an element with tangent t. A rigid element twists by t·δω.
 #[inline(always)]
-pub fn add_twist_gradient<F: Real>(spin: Spin, t: Vec3<F>, gradient: F, out: &mut [F; MOST]) {
+pub fn add_twist_gradient<F: Real>(
+    spin: Spin,
+    t: Vec3<F>,
+    gradient: F,
+    out: &mut [F; MAX_STENCIL],
+) {
     match spin {
         Spin::Fixed => {}
         Spin::Free(slot) => out[slot] = out[slot] + gradient,
@@ -242,7 +247,7 @@ pub fn strain_rate<I: Isa>(
 /// K springs over the same unknowns, at the start of the step.
 struct Springs<'a, F, const K: usize> {
     stencil: &'a Stencil,
-    gradients: [&'a [F; MOST]; K],
+    gradients: [&'a [F; MAX_STENCIL]; K],
     strains: [F; K],
     stiffness: [F; K],
 }
@@ -268,7 +273,7 @@ impl<F, const K: usize> Springs<'_, F, K> {
             let gradient = self.gradients[k];
             let rate = strain_rate(isa, equations.v, self.stencil, gradient);
             let force = (self.strains[k] + rate * scheme.before_s) * self.stiffness[k];
-            add_force(isa, equations.right, self.stencil, gradient, -(force * dt));
+            add_force(isa, equations.rhs, self.stencil, gradient, -(force * dt));
         }
     }
 }

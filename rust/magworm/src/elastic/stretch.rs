@@ -6,8 +6,8 @@
 
 use super::rod::{Frames, Rod};
 use super::{
-    Equations, MOST, Positions, Scheme, Springs, add_force, add_rank_one, generalised_gradient,
-    strain_rate,
+    Equations, MAX_STENCIL, Positions, Scheme, Springs, add_force, add_rank_one,
+    generalised_gradient, strain_rate,
 };
 use crate::lanes::{Components, Isa, Real};
 use crate::model::Model;
@@ -21,13 +21,13 @@ pub fn assemble<D: Rod, I: Isa>(
     block: &mut Block<I::Row>,
     scheme: Scheme<I::F>,
 ) {
-    let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
+    let (matrix, rhs, v) = (&mut *block.matrix, &mut *block.rhs, &*block.spring_velocity);
     let (tangent, length, inverse_length) =
         (&*block.tangent, &*block.length, &*block.inverse_length);
     let frames = Frames { director: &block.director, side: &block.side };
     let positions = Positions { node: &block.node, q: &block.q };
-    let mut equations = Equations { matrix, right, v };
-    let mut gradient = [isa.splat(0.0); MOST];
+    let mut equations = Equations { matrix, rhs, v };
+    let mut gradient = [isa.splat(0.0); MAX_STENCIL];
     for spring in &model.stretch {
         let e = spring.element;
         let stencil = &spring.stencil;
@@ -49,7 +49,7 @@ pub fn assemble<D: Rod, I: Isa>(
             generalised_gradient::<D, I, 2>(isa, positions, stencil, &[-n, n], &mut gradient);
             add_rank_one(isa, equations.matrix, stencil, &gradient, force * after_s);
             let turned = strain_rate(isa, equations.v, stencil, &gradient) * before_s;
-            add_force(isa, equations.right, stencil, &gradient, -(force * turned));
+            add_force(isa, equations.rhs, stencil, &gradient, -(force * turned));
         }
     }
 }

@@ -19,7 +19,7 @@
 //! γ = (1 + x²)(1 − σ (1 + x²))/4x². Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
 use super::{
-    Equations, MOST, Positions, Scheme, Springs, add_twist_gradient, generalised_gradient,
+    Equations, MAX_STENCIL, Positions, Scheme, Springs, add_twist_gradient, generalised_gradient,
 };
 use crate::lanes::math::{atan, atan2, round};
 use crate::lanes::{Components, Isa, Real, Space, Vec3, Vector};
@@ -31,14 +31,14 @@ use crate::state::Block;
 #[inline(always)]
 pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme: Scheme<I::F>) {
     let zero = isa.splat(0.0);
-    let mut gradients = [[zero; MOST]; 3];
+    let mut gradients = [[zero; MAX_STENCIL]; 3];
     for (k, spring) in model.bend.iter().enumerate() {
         let joint = Joint::load(isa, block, spring.node);
         let strains = joint.strains(isa, block, model.scene.solver.curvature, k);
         let positions = Positions { node: &block.node, q: &block.q };
         joint.gradients(isa, positions, spring, &strains, &mut gradients);
-        let (matrix, right, v) = (&mut *block.matrix, &mut *block.right, &*block.lagged);
-        let mut equations = Equations { matrix, right, v };
+        let (matrix, rhs, v) = (&mut *block.matrix, &mut *block.rhs, &*block.spring_velocity);
+        let mut equations = Equations { matrix, rhs, v };
         let springs = Springs {
             stencil: &spring.stencil,
             gradients: [&gradients[0], &gradients[1], &gradients[2]],
@@ -148,7 +148,7 @@ impl<F: Real> Joint<F> {
         positions: Positions<'_, I::Row>,
         spring: &Bend,
         strains: &Strains<F>,
-        out: &mut [[F; MOST]; 3],
+        out: &mut [[F; MAX_STENCIL]; 3],
     ) {
         let one = isa.splat(1.0);
         let (factor, slope) = (strains.factor, strains.slope);
@@ -191,7 +191,7 @@ fn element_gradients<I: Isa>(
     spring: &Bend,
     de: Vec3<I::F>,
     df: Vec3<I::F>,
-    out: &mut [I::F; MOST],
+    out: &mut [I::F; MAX_STENCIL],
 ) {
     let of_nodes = [-de, de - df, df];
     generalised_gradient::<Space, I, 3>(isa, positions, &spring.stencil, &of_nodes, out);

@@ -16,10 +16,10 @@ const WRENCH: usize = 6;
 pub fn gravity<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let Some(gravity) = model.program.gravity_m_s2 else { return };
     let dt = model.step_s;
-    let (masses, right) = (&*block.mass, &mut *block.right);
+    let (masses, rhs) = (&*block.mass, &mut *block.rhs);
     for &(dof, axis) in &model.translations {
         let push = isa.load(&masses[dof]) * (gravity[axis] * dt);
-        isa.store(isa.load(&right[dof]) + push, &mut right[dof]);
+        isa.store(isa.load(&rhs[dof]) + push, &mut rhs[dof]);
     }
     off_centre::gravity::<D, I>(isa, model, block, gravity);
 }
@@ -56,7 +56,7 @@ pub fn magnets<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         }
         let dt = model.step_s;
         for k in 0..D::BODY {
-            let entry = &mut block.right[dof + k];
+            let entry = &mut block.rhs[dof + k];
             isa.store(isa.load(entry) + wrench[k] * dt, entry);
         }
     }

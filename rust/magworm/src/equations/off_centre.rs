@@ -26,10 +26,10 @@ pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         let velocity = vector::<D, I>(isa, &block.v, body.dof);
         let rate = rotation::<D, I>(isa, &block.v, body);
         let (push, spin) = (rate.cross(s), s.cross(velocity));
-        (0..D::AXES).for_each(|k| add(isa, push[k], &mut block.right[body.dof + k]));
+        (0..D::AXES).for_each(|k| add(isa, push[k], &mut block.rhs[body.dof + k]));
         for (dof, k) in rotations::<D>(body) {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            add(isa, spin[k], &mut block.right[dof]);
+            add(isa, spin[k], &mut block.rhs[dof]);
             set(isa, model, block, dof, body.dof + next, -s[last]);
             set(isa, model, block, dof, body.dof + last, s[next]);
         }
@@ -49,7 +49,7 @@ pub fn gravity<D: Rod, I: Isa>(
     for body in &model.off_centre {
         let axes = D::axes_before(isa, block, body.body);
         let torque = first_moment::<D, I>(isa, block, body, &axes).cross(pull);
-        rotations::<D>(body).for_each(|(dof, k)| add(isa, torque[k], &mut block.right[dof]));
+        rotations::<D>(body).for_each(|(dof, k)| add(isa, torque[k], &mut block.rhs[dof]));
     }
 }
 
@@ -63,7 +63,7 @@ pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, g
         let share = one_over(isa.load(&block.mass[body.dof]));
         let from = first_moment::<D, I>(isa, block, body, &before) * share;
         let to = first_moment::<D, I>(isa, block, body, &after) * share;
-        let rate = rotation::<D, I>(isa, &block.next, body);
+        let rate = rotation::<D, I>(isa, &block.end_velocity, body);
         let swing = rate.cross(from);
         let rate = if D::AXES == 2 {
             rate
@@ -72,7 +72,7 @@ pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, g
         };
         let swung = rate.cross(to);
         for k in 0..D::AXES {
-            let velocity = isa.load(&block.next[body.dof + k]) + swing[k] - swung[k];
+            let velocity = isa.load(&block.end_velocity[body.dof + k]) + swing[k] - swung[k];
             let place = isa.load(&block.q[body.dof + k]);
             let place = place + (swing[k] * model.step_s - (to[k] - from[k]));
             keep(isa, go, place, &mut block.q[body.dof + k]);
@@ -133,7 +133,7 @@ fn add_products<D: Rod, I: Isa>(
         let entry = isa.load(&block.off_centre[body.row + 3 + at]);
         let (by_k, by_l) = (axes[k].dot(rate) * entry, axes[l].dot(rate) * entry);
         for row in 0..3 {
-            add(isa, axes[k][row] * by_l + axes[l][row] * by_k, &mut block.right[first + row]);
+            add(isa, axes[k][row] * by_l + axes[l][row] * by_k, &mut block.rhs[first + row]);
             for column in 0..=row {
                 let both = axes[k][row] * axes[l][column] + axes[l][row] * axes[k][column];
                 let place = model.system.at(first + row, first + column);

@@ -27,7 +27,7 @@ fn follow<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie:
     for k in 0..D::AXES {
         let row = tie.dof + k;
         let strayed = isa.load(&block.q[node + k]) - isa.load(&block.q[body + k]) - arm[k];
-        isa.store(-(strayed / model.step_s), &mut block.right[row]);
+        isa.store(-(strayed / model.step_s), &mut block.rhs[row]);
         set(isa, model, block, row, node + k, isa.splat(1.0));
         set(isa, model, block, row, body + k, isa.splat(-1.0));
         // −∂(ω × arm)_k/∂ω = e_k × arm.

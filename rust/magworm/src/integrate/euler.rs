@@ -12,5 +12,5 @@ pub(super) const COEFFICIENTS: Coefficients = Coefficients {
     before: [0.0, 0.0],
     after: [1.0, 1.0],
     geometric_s: |dt| [0.0, dt],
-    lag: 0.0,
+    numerical_dissipation: 0.0,
 };

@@ -11,5 +11,5 @@ pub(super) const COEFFICIENTS: Coefficients = Coefficients {
     before: [1.0, 0.0],
     after: [0.0, 0.0],
     geometric_s: |_| [0.0; 2],
-    lag: 0.0,
+    numerical_dissipation: 0.0,
 };

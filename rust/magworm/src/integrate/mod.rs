@@ -45,7 +45,7 @@ pub struct Coefficients {
     /// a and b of the geometric stiffness, which has no retardation, for a step Δt [s].
     pub geometric_s: fn(f64) -> [f64; 2],
     /// λ: what springs take for v is (1 − λ) v + λ v⁻, with v⁻ that of the step before.
-    pub lag: f64,
+    pub numerical_dissipation: f64,
 }
 
 impl Integrator {

@@ -1,4 +1,4 @@
-//! Newmark's scheme, β = γ = ½, linearly implicit in reduced coordinates, with velocities that lag.
+//! Newmark's scheme, β = γ = ½, linearly implicit in reduced coordinates, with numerical dissipation.
 //!
 //! In its two-step form it takes the strain at the start of the step, which stands half-way between two velocities, and
 //! β Δt² of its acceleration, hence a = −β Δt, b = τ + β Δt. It adds stiffness times the change of velocity: stable for any
@@ -14,10 +14,10 @@ use super::Coefficients;
 
 /// β.
 const BETA: f64 = 0.5;
-/// λ.
-const LAG: f64 = 0.1;
+/// λ, the numerical dissipation.
+const DISSIPATION: f64 = 0.1;
 /// Least retardation time of the geometric stiffness, in steps. A tension that changes from step to step can feed
-/// vibrations across it that are far faster than the step, which the lag alone does not stop.
+/// vibrations across it that are far faster than the step, which λ alone does not stop.
 const STEADYING: f64 = 0.01;
 
 pub(super) const COEFFICIENTS: Coefficients = Coefficients {
@@ -27,5 +27,5 @@ pub(super) const COEFFICIENTS: Coefficients = Coefficients {
     before: [0.0, -BETA],
     after: [1.0, BETA],
     geometric_s: |dt| [-BETA * dt, STEADYING * dt + BETA * dt],
-    lag: LAG,
+    numerical_dissipation: DISSIPATION,
 };

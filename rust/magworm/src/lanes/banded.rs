@@ -139,15 +139,15 @@ impl Band {
     }
 
     /// Solves in place with a factored matrix.
-    pub fn solve<I: Isa>(&self, isa: I, factored: &[I::Row], right: &mut [I::Row]) {
+    pub fn solve<I: Isa>(&self, isa: I, factored: &[I::Row], rhs: &mut [I::Row]) {
         match self.half_bandwidth {
-            5 => vectorized!(isa, solve::<I, 5, 6>(isa, factored, right)),
-            6 => vectorized!(isa, solve::<I, 6, 7>(isa, factored, right)),
-            8 => vectorized!(isa, solve::<I, 8, 9>(isa, factored, right)),
-            10 => vectorized!(isa, solve::<I, 10, 11>(isa, factored, right)),
-            11 => vectorized!(isa, solve::<I, 11, 12>(isa, factored, right)),
-            13 => vectorized!(isa, solve::<I, 13, 14>(isa, factored, right)),
-            _ => vectorized!(isa, solve::<I, 16, 17>(isa, factored, right)),
+            5 => vectorized!(isa, solve::<I, 5, 6>(isa, factored, rhs)),
+            6 => vectorized!(isa, solve::<I, 6, 7>(isa, factored, rhs)),
+            8 => vectorized!(isa, solve::<I, 8, 9>(isa, factored, rhs)),
+            10 => vectorized!(isa, solve::<I, 10, 11>(isa, factored, rhs)),
+            11 => vectorized!(isa, solve::<I, 11, 12>(isa, factored, rhs)),
+            13 => vectorized!(isa, solve::<I, 13, 14>(isa, factored, rhs)),
+            _ => vectorized!(isa, solve::<I, 16, 17>(isa, factored, rhs)),
         }
     }
 }
@@ -199,11 +199,11 @@ pub(super) fn factor_row<I: Isa, const H: usize, const ROW: usize>(
 fn solve<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     factored: &[I::Row],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
 ) {
     let (rows, _) = factored.as_chunks::<ROW>();
     let mut known = [isa.splat(0.0); H];
-    for (row, value) in right.iter_mut().enumerate() {
+    for (row, value) in rhs.iter_mut().enumerate() {
         let mut sum = isa.load(value);
         for k in 0..H {
             sum = sum - isa.load(&rows[row + H][k]) * known[k];
@@ -215,7 +215,7 @@ fn solve<I: Isa, const H: usize, const ROW: usize>(
         isa.store(sum, value);
     }
     let mut known = [isa.splat(0.0); H];
-    for (row, value) in right.iter_mut().enumerate().rev() {
+    for (row, value) in rhs.iter_mut().enumerate().rev() {
         let mut sum = isa.load(value) * isa.load(&rows[row + H][H]);
         let below = rows[row + H + 1..].first_chunk::<H>().expect(GHOSTS);
         for k in 0..H {
@@ -266,9 +266,9 @@ mod tests {
             let mut band = Band::diagonal(size);
             band.couple(&[0, span]);
             let (dense, mut packed) = matrices(&band, &numbers);
-            let right = DVector::from_iterator(size, numbers.iter().copied().take(size));
-            let expected = dense.lu().solve(&right).unwrap();
-            let mut solution: Vec<[f64; 1]> = right.iter().map(|&r| [r]).collect();
+            let rhs = DVector::from_iterator(size, numbers.iter().copied().take(size));
+            let expected = dense.lu().solve(&rhs).unwrap();
+            let mut solution: Vec<[f64; 1]> = rhs.iter().map(|&r| [r]).collect();
             band.factor(Scalar, &mut packed);
             band.solve(Scalar, &packed, &mut solution);
             for row in 0..size {

@@ -5,10 +5,10 @@
 //! S = A_kk − A_ks A_ss⁻¹ A_sk over the *kept* unknowns of the bodies, 18 instead of 68 for a worm of three
 //! magnets in space. Once their velocities are known, those of the soft unknowns follow.
 //!
-//! Within a segment unknowns are numbered along the body, so A_ss is banded, and the body behind it (its *right* one)
-//! only meets its last unknowns: its rows continue the band. The body before it (its *left* one) meets its
-//! first unknowns, and elimination carries that on to all of them: a *border* of as many columns as the body has
-//! unknowns. A segment is factored as L D Lᵀ without pivoting, row by row.
+//! Within a segment unknowns are numbered along the body, so A_ss is banded, and the body behind it only meets its
+//! last unknowns: its rows continue the band. The body before it meets its first unknowns, and elimination carries
+//! that on to all of them: a *border* of as many columns as the body has unknowns. A segment is factored as L D Lᵀ
+//! without pivoting, row by row.
 //!
 //! A system without bodies to keep, or whose soft unknowns touch the ground, is kept as a whole.
 
@@ -62,9 +62,9 @@ pub struct Chain {
 struct Segment {
     rows: Range<usize>,
     /// First unknown of the body before it.
-    left: Option<usize>,
+    before: Option<usize>,
     /// First unknown of the body behind it.
-    right: Option<usize>,
+    behind: Option<usize>,
 }
 
 impl Chain {
@@ -170,8 +170,8 @@ impl Chain {
             (Some(row), Some(column)) => reach(&self.kept, row - column),
             (None, Some(_)) => {
                 let segment = self.segments.iter().find(|segment| segment.rows.contains(&row));
-                let left = segment.and_then(|segment| segment.left);
-                left.is_some_and(|left| (left..left + self.body).contains(&column))
+                let before = segment.and_then(|segment| segment.before);
+                before.is_some_and(|before| (before..before + self.body).contains(&column))
             }
             (_, None) => reach(&self.band, row - column),
         };
@@ -201,32 +201,32 @@ impl Chain {
         }
         let (band, border) = soft.split_at_mut(self.start_of_border());
         zero(isa, &mut band[self.band.inner()]);
-        for segment in self.segments.iter().filter(|segment| segment.left.is_some()) {
+        for segment in self.segments.iter().filter(|segment| segment.before.is_some()) {
             let rows = self.body * segment.rows.start..self.body * segment.rows.end;
             zero(isa, &mut border[rows]);
         }
     }
 
-    /// Eliminates the soft unknowns in place: what is left of `matrix` and `right` at the kept unknowns is their own
+    /// Eliminates the soft unknowns in place: what is left of `matrix` and `rhs` at the kept unknowns is their own
     /// system.
-    pub fn condense<I: Isa>(&self, isa: I, matrix: &mut [I::Row], right: &mut [I::Row]) {
+    pub fn condense<I: Isa>(&self, isa: I, matrix: &mut [I::Row], rhs: &mut [I::Row]) {
         let (soft, kept) = matrix.split_at_mut(self.start_of_kept());
         let (band, border) = soft.split_at_mut(self.start_of_border());
         let mut parts = Parts { chain: self, band, border, kept };
         for segment in &self.segments {
             dispatch!(self, H, ROW, K => {
-                vectorized!(isa, parts.condense::<I, H, ROW, K>(isa, segment, right));
+                vectorized!(isa, parts.condense::<I, H, ROW, K>(isa, segment, rhs));
             });
         }
     }
 
-    /// Solutions at the soft unknowns, into `solution`, which holds those at the kept ones; `matrix` and `right` are
+    /// Solutions at the soft unknowns, into `solution`, which holds those at the kept ones; `matrix` and `rhs` are
     /// those that [`Self::condense`] left.
     pub fn recover<I: Isa>(
         &self,
         isa: I,
         matrix: &[I::Row],
-        right: &[I::Row],
+        rhs: &[I::Row],
         solution: &mut [I::Row],
     ) {
         let (band, border) = matrix[..self.start_of_kept()].split_at(self.start_of_border());
@@ -234,7 +234,7 @@ impl Chain {
             dispatch!(self, H, ROW, K => {
                 vectorized!(
                     isa,
-                    recover::<I, H, ROW, K>(isa, segment, band, border, right, solution)
+                    recover::<I, H, ROW, K>(isa, segment, band, border, rhs, solution)
                 );
             });
         }
@@ -250,13 +250,13 @@ fn zero<I: Isa>(isa: I, rows: &mut [I::Row]) {
 
 fn segments(size: usize, bodies: &[usize], body: usize) -> Vec<Segment> {
     let mut segments = Vec::new();
-    let (mut start, mut left) = (0, None);
-    for right in bodies.iter().map(|&first| Some(first)).chain([None]) {
-        let end = right.unwrap_or(size);
+    let (mut start, mut before) = (0, None);
+    for behind in bodies.iter().map(|&first| Some(first)).chain([None]) {
+        let end = behind.unwrap_or(size);
         if start < end {
-            segments.push(Segment { rows: start..end, left, right });
+            segments.push(Segment { rows: start..end, before, behind });
         }
-        (start, left) = (end + body, right);
+        (start, before) = (end + body, behind);
     }
     segments
 }

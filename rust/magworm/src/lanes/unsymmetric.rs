@@ -82,15 +82,15 @@ fn expand_rows<I: Isa, const H: usize, const ROW: usize>(
     }
 }
 
-/// Solves in place: `right` has ghost rows, `full` is used up. A `body` of so many unknowns only meets itself and its
+/// Solves in place: `rhs` has ghost rows, `full` is used up. A `body` of so many unknowns only meets itself and its
 /// neighbours, which leaves half of the work; 0 where there is no such order.
-pub fn solve<I: Isa>(isa: I, band: &Band, body: usize, full: &mut [I::Row], right: &mut [I::Row]) {
+pub fn solve<I: Isa>(isa: I, band: &Band, body: usize, full: &mut [I::Row], rhs: &mut [I::Row]) {
     let size = band.size();
     match (band.half_bandwidth(), body) {
-        (5, 3) => vectorized!(isa, solve_bodies::<I, 5, 11, 3, 9>(isa, size, full, right)),
-        (11, 6) => vectorized!(isa, solve_bodies::<I, 11, 23, 6, 18>(isa, size, full, right)),
+        (5, 3) => vectorized!(isa, solve_bodies::<I, 5, 11, 3, 9>(isa, size, full, rhs)),
+        (11, 6) => vectorized!(isa, solve_bodies::<I, 11, 23, 6, 18>(isa, size, full, rhs)),
         _ => dispatch!(band, H, ROW => {
-            vectorized!(isa, solve_rows::<I, H, ROW>(isa, size, full, right));
+            vectorized!(isa, solve_rows::<I, H, ROW>(isa, size, full, rhs));
         }),
     }
 }
@@ -100,13 +100,13 @@ fn solve_rows<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
     full: &mut [I::Row],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for row in H..size + H {
-        eliminate::<I, H, ROW>(isa, rows, right, row);
+        eliminate::<I, H, ROW>(isa, rows, rhs, row);
     }
-    substitute::<I, H, ROW>(isa, size, full, right);
+    substitute::<I, H, ROW>(isa, size, full, rhs);
 }
 
 /// B: unknowns of a body, C: those of three.
@@ -115,15 +115,15 @@ fn solve_bodies<I: Isa, const H: usize, const ROW: usize, const B: usize, const 
     isa: I,
     size: usize,
     full: &mut [I::Row],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks_mut::<ROW>();
     for body in 0..size / B {
         for slot in 0..B {
-            eliminate_of_body::<I, H, ROW, B, C>(isa, rows, right, H + B * body, slot);
+            eliminate_of_body::<I, H, ROW, B, C>(isa, rows, rhs, H + B * body, slot);
         }
     }
-    substitute::<I, H, ROW>(isa, size, full, right);
+    substitute::<I, H, ROW>(isa, size, full, rhs);
 }
 
 /// One row: what stands left of the diagonal is eliminated by the rows above; the diagonal becomes 1/pivot.
@@ -131,12 +131,12 @@ fn solve_bodies<I: Isa, const H: usize, const ROW: usize, const B: usize, const 
 fn eliminate<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     rows: &mut [[I::Row; ROW]],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
     row: usize,
 ) {
     let one = isa.splat(1.0);
     let (above, below) = rows.split_at_mut(row);
-    let (known, unknown) = right.split_at_mut(row);
+    let (known, unknown) = rhs.split_at_mut(row);
     let above = above.last_chunk::<H>().expect(GHOSTS);
     let known = known.last_chunk::<H>().expect(GHOSTS);
     let mut current = [one; ROW];
@@ -165,13 +165,13 @@ fn eliminate<I: Isa, const H: usize, const ROW: usize>(
 fn eliminate_of_body<I: Isa, const H: usize, const ROW: usize, const B: usize, const C: usize>(
     isa: I,
     rows: &mut [[I::Row; ROW]],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
     first: usize,
     slot: usize,
 ) {
     let one = isa.splat(1.0);
     let (above, below) = rows[first - B..].split_at_mut(B + slot);
-    let (known, unknown) = right[first - B..].split_at_mut(B + slot);
+    let (known, unknown) = rhs[first - B..].split_at_mut(B + slot);
     let entries =
         below[0][B - 1 - slot..].first_chunk_mut::<C>().expect("a row is four bodies long");
     let mut current = [one; C];
@@ -205,11 +205,11 @@ fn substitute<I: Isa, const H: usize, const ROW: usize>(
     isa: I,
     size: usize,
     full: &[I::Row],
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
 ) {
     let (rows, _) = full.as_chunks::<ROW>();
     for row in (H..size + H).rev() {
-        let (unknown, known) = right.split_at_mut(row + 1);
+        let (unknown, known) = rhs.split_at_mut(row + 1);
         let known = known.first_chunk::<H>().expect(GHOSTS);
         let (entries, mut sum) = (&rows[row], isa.load(&unknown[row]));
         unrolled!(k < H => {
@@ -238,12 +238,12 @@ mod tests {
                 full[at(&band, row, column)] = [entry + if row == column { 20.0 } else { 0.0 }];
             }
         }
-        let mut right = vec![[0.0]; rows(&band)];
-        (0..18).for_each(|row| right[11 + row] = [row as f64 - 7.0]);
-        let (mut full_too, mut right_too) = (full.clone(), right.clone());
-        solve(Scalar, &band, 6, &mut full, &mut right);
+        let mut rhs = vec![[0.0]; rows(&band)];
+        (0..18).for_each(|row| rhs[11 + row] = [row as f64 - 7.0]);
+        let (mut full_too, mut right_too) = (full.clone(), rhs.clone());
+        solve(Scalar, &band, 6, &mut full, &mut rhs);
         solve(Scalar, &band, 0, &mut full_too, &mut right_too);
-        assert_eq!(right, right_too);
+        assert_eq!(rhs, right_too);
     }
 
     proptest! {
@@ -276,11 +276,11 @@ mod tests {
                     full[at(&band, row, column)][0] += skew;
                 }
             }
-            let right = DVector::from_iterator(size, numbers.iter().copied().take(size));
+            let rhs = DVector::from_iterator(size, numbers.iter().copied().take(size));
             let mut solution = vec![[0.0]; rows(&band)];
-            (0..size).for_each(|row| solution[h + row] = [right[row]]);
+            (0..size).for_each(|row| solution[h + row] = [rhs[row]]);
             solve(Scalar, &band, 0, &mut full, &mut solution);
-            let expected = dense.lu().solve(&right).unwrap();
+            let expected = dense.lu().solve(&rhs).unwrap();
             for row in 0..size {
                 prop_assert!((solution[h + row][0] - expected[row]).abs() < 1e-12);
             }

@@ -16,7 +16,7 @@ use super::{GaussLegendre, MU_0, Magnet, Wrench, field_t};
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// The most panels of a wrench: magnets whose edges touch along their length take a thousand at order 5.
-const MOST_PANELS: usize = 4000;
+const MAX_PANELS: usize = 4000;
 /// Where parts cancel to less than this of their sum, what is left counts as this much.
 const CANCELLED: f64 = 1e-4;
 
@@ -44,7 +44,7 @@ impl Near<'_> {
             let parts: f64 = panels.iter().map(|panel| self.size(&panel.value)).sum();
             let change: f64 = panels.iter().map(|panel| panel.change).sum();
             let allowed = self.tolerance * self.size(&total).max(CANCELLED * parts);
-            if change <= allowed || panels.len() > MOST_PANELS {
+            if change <= allowed || panels.len() > MAX_PANELS {
                 let [fx, fy, fz, tx, ty, tz] = total.into();
                 let (force_n, torque_n_m) = (Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
                 return Wrench { force_n, torque_n_m };

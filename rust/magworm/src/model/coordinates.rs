@@ -169,7 +169,7 @@ fn magnet_ends(mesh: &Mesh) -> Vec<Option<(usize, i8)>> {
 }
 
 /// Most unknowns in one stencil: two magnets and a node between them, with the twist of two elements.
-pub const MOST: usize = 17;
+pub const MAX_STENCIL: usize = 17;
 
 /// What the twist of an element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,7 +191,7 @@ pub struct Stencil {
     /// How many of them are used.
     pub node_count: usize,
     /// The unknowns.
-    pub dofs: [usize; MOST],
+    pub dofs: [usize; MAX_STENCIL],
     /// How many of them are used.
     pub count: usize,
     /// Place in `dofs` of each node's x; the other directions follow, then its magnet's rotation.
@@ -205,7 +205,7 @@ pub struct Stencil {
     /// Twist of the elements between the nodes.
     pub spins: [Spin; 2],
     /// Places in the matrix of all pairs of unknowns, lower triangle by rows.
-    pub entries: [usize; MOST * (MOST + 1) / 2],
+    pub entries: [usize; MAX_STENCIL * (MAX_STENCIL + 1) / 2],
 }
 
 impl Stencil {
@@ -223,14 +223,14 @@ impl Stencil {
         let mut this = Self {
             nodes: [0; 3],
             node_count: nodes.len(),
-            dofs: [0; MOST],
+            dofs: [0; MAX_STENCIL],
             count: 0,
             slots: [0; 3],
             body: [None; 3],
             body_dofs: [0; 3],
             moves: [false; 3],
             spins: [Spin::Fixed; 2],
-            entries: [0; MOST * (MOST + 1) / 2],
+            entries: [0; MAX_STENCIL * (MAX_STENCIL + 1) / 2],
         };
         for (k, &node) in nodes.iter().enumerate() {
             this.add_node(coordinates, k, node);

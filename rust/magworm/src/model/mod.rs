@@ -16,7 +16,7 @@ mod waves;
 
 pub use crate::scene::{ContactPoint, Element, Frame, Mesh, MeshMagnet};
 pub use contacts::{ContactPair, ContactParameters, Surface};
-pub use coordinates::{Anchor, Coordinates, MOST, Spin, Stencil, Tie, Unknowns};
+pub use coordinates::{Anchor, Coordinates, MAX_STENCIL, Spin, Stencil, Tie, Unknowns};
 pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre};
 pub use magnetics::{Magnetics, PairModel};

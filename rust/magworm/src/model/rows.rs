@@ -70,8 +70,8 @@ macro_rules! block_rows {
                 q: "m, rad", |m| m.coordinates.count;
                 /// Their velocities; multipliers hold impulses [N·s]; shape [unknowns].
                 v: "m/s, rad/s", |m| m.coordinates.count;
-                /// What the springs take for the velocities at the start of a step, see [`crate::integrate::Coefficients::lag`], shape [unknowns].
-                lagged: "m/s, rad/s", |m| m.coordinates.count;
+                /// What the springs take for the velocities at the start of a step, see [`crate::integrate::Coefficients::numerical_dissipation`], shape [unknowns].
+                spring_velocity: "m/s, rad/s", |m| m.coordinates.count;
                 /// Normal impulse of each contact in the last step, shape [contacts].
                 normal_impulse: "N·s", |m| m.contacts.len();
                 /// Impulse that the tangential spring of each contact holds along x and in space along z, shape [contacts × (D − 1)]. Friction
@@ -126,9 +126,9 @@ macro_rules! block_rows {
                 /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
                 matrix: "kg, kg·m, kg·m²", |m| m.system.entries();
                 /// Right-hand side, shape [unknowns].
-                right: "N·s, N·m·s", |m| m.coordinates.count;
+                rhs: "N·s, N·m·s", |m| m.coordinates.count;
                 /// Velocities at the end of this step, shape [unknowns].
-                next: "m/s, rad/s", |m| m.coordinates.count;
+                end_velocity: "m/s, rad/s", |m| m.coordinates.count;
             }
             Contact {
                 /// r: from a point's body to the point, shape [contacts × D].

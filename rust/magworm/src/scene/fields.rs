@@ -7,24 +7,24 @@ use super::Integrator;
 use super::schema::{Kind, Table, Variant, optional, real, required, whole};
 
 /// Most magnets in a body.
-pub(super) const MOST_MAGNETS: i64 = 32;
+pub(super) const MAX_MAGNETS: i64 = 32;
 /// Most segments of a body.
-const MOST_SEGMENTS: usize = 100;
+const MAX_SEGMENTS: usize = 100;
 /// Shortest rod element [m]: shorter ones make the stiffness of a step too badly scaled to solve.
 pub(super) const SHORTEST_ELEMENT_M: f64 = 1e-5;
 /// Most drive magnets.
-pub(super) const MOST_DRIVE_MAGNETS: i64 = 16;
+pub(super) const MAX_DRIVE_MAGNETS: i64 = 16;
 /// Most steps for which a wrench acts.
-const MOST_STEPS_OF_A_WRENCH: i64 = 10_000;
+const MAX_STEPS_OF_A_WRENCH: i64 = 10_000;
 /// Greatest speed of a drive [m/s].
 pub(super) const GREATEST_DRIVE_SPEED_M_S: f64 = 10.0;
 /// Greatest speed of yaw of a drive between waypoints [°/s].
 pub(super) const GREATEST_DRIVE_YAW_SPEED_DEG_S: f64 = 1e4;
 /// Most parts that a body is bent in at the start, and the greatest angle of each list in all [°].
-const MOST_BENT_PARTS: usize = 1000;
+const MAX_BENT_PARTS: usize = 1000;
 pub(super) const GREATEST_BEND_DEG: f64 = 36_000.0;
 /// Most points in time of a drive that moves between waypoints.
-pub(super) const MOST_WAYPOINTS: usize = 10_000;
+pub(super) const MAX_WAYPOINTS: usize = 10_000;
 
 const EDGE: Kind = real("m", 1e-4, 0.5);
 const THICKNESS: Kind = real("m", 1e-4, 0.03);
@@ -37,7 +37,7 @@ const FLUX_DENSITY: Kind = real("T", -10.0, 10.0);
 const TURN: Kind = real("°", -360.0, 360.0);
 const MANY_TURNS: Kind = real("°", -36_000.0, 36_000.0);
 const BENDS: Kind =
-    Kind::List { of: &real("°", -GREATEST_BEND_DEG, GREATEST_BEND_DEG), most: MOST_BENT_PARTS };
+    Kind::List { of: &real("°", -GREATEST_BEND_DEG, GREATEST_BEND_DEG), most: MAX_BENT_PARTS };
 const FRICTION: Kind = real("", 0.0, 10.0);
 const FACTOR: Kind = real("", 1e-3, 1e3);
 const SHORT: Kind = real("s", 1e-7, 0.05);
@@ -69,14 +69,14 @@ const BODY: &[Variant] = &[
 
 static WORM: Table = Table {
     fields: &[
-        required("magnets", whole(1, MOST_MAGNETS)),
+        required("magnets", whole(1, MAX_MAGNETS)),
         required("pitch_m", real("m", 1e-3, 1.0)),
         required("foot_length_m", EDGE),
         required("foot_thickness_m", THICKNESS),
         required("bridge_thickness_m", THICKNESS),
         required("width_m", EDGE),
         optional("first_polarity", Kind::Polarity),
-        optional("removed", Kind::List { of: &whole(0, MOST_MAGNETS - 1), most: 32 }),
+        optional("removed", Kind::List { of: &whole(0, MAX_MAGNETS - 1), most: 32 }),
         required("elements_per_bridge", whole(1, 999)),
         required("elements_per_foot_end", whole(1, 999)),
     ],
@@ -100,7 +100,7 @@ static ROD_MAGNET: Table = Table {
 static SEGMENTS: Table = Table {
     fields: &[
         optional("clamp", Kind::Choice(&["none", "head"])),
-        required("segment", Kind::List { of: &Kind::Table(&SEGMENT), most: MOST_SEGMENTS }),
+        required("segment", Kind::List { of: &Kind::Table(&SEGMENT), most: MAX_SEGMENTS }),
     ],
 };
 
@@ -188,7 +188,7 @@ static PAIR: Table = Table {
 static BELT: Table = Table {
     fields: &[
         required("pitch_m", real("m", 1e-3, 10.0)),
-        required("count", whole(1, MOST_DRIVE_MAGNETS)),
+        required("count", whole(1, MAX_DRIVE_MAGNETS)),
     ],
 };
 
@@ -224,11 +224,11 @@ static CONSTANT: Table = Table {
 
 static WAYPOINTS: Table = Table {
     fields: &[
-        required("time_s", Kind::List { of: &real("s", 0.0, 1e5), most: MOST_WAYPOINTS }),
-        required("x_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
-        required("y_m", Kind::List { of: &HEIGHT, most: MOST_WAYPOINTS }),
-        optional("z_m", Kind::List { of: &POSITION, most: MOST_WAYPOINTS }),
-        optional("yaw_deg", Kind::List { of: &MANY_TURNS, most: MOST_WAYPOINTS }),
+        required("time_s", Kind::List { of: &real("s", 0.0, 1e5), most: MAX_WAYPOINTS }),
+        required("x_m", Kind::List { of: &POSITION, most: MAX_WAYPOINTS }),
+        required("y_m", Kind::List { of: &HEIGHT, most: MAX_WAYPOINTS }),
+        optional("z_m", Kind::List { of: &POSITION, most: MAX_WAYPOINTS }),
+        optional("yaw_deg", Kind::List { of: &MANY_TURNS, most: MAX_WAYPOINTS }),
     ],
 };
 
@@ -267,7 +267,7 @@ static SOLVER: Table = Table {
         optional("step_s", SHORT),
         optional("magnet_model", Kind::Choice(&["cuboid", "dipole"])),
         optional("quadrature_order", whole(1, 10)),
-        optional("wrench_interval", whole(1, MOST_STEPS_OF_A_WRENCH)),
+        optional("wrench_interval", whole(1, MAX_STEPS_OF_A_WRENCH)),
         optional("contact_iterations", whole(1, 1000)),
         optional("fastest_m_s", real("m/s", 1e-3, 1e4)),
         optional("curvature", Kind::Choice(&["angle", "tangent"])),

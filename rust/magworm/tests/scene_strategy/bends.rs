@@ -6,7 +6,7 @@ use super::dice::Dice;
 
 /// Numbers that [`bend`] reads at most.
 pub const NUMBERS: usize = 64;
-const MOST_PARTS: usize = 8;
+const MAX_PARTS: usize = 8;
 
 /// Bends the start of a scene; every other one stays straight.
 pub fn bend(mut scene: Scene, dice: &mut Dice) -> Scene {
@@ -22,7 +22,7 @@ pub fn bend(mut scene: Scene, dice: &mut Dice) -> Scene {
 }
 
 fn angles(dice: &mut Dice) -> Vec<f64> {
-    let (parts, greatest_deg) = (dice.whole(0, MOST_PARTS), dice.decades(1.0, 36_000.0));
+    let (parts, greatest_deg) = (dice.whole(0, MAX_PARTS), dice.decades(1.0, 36_000.0));
     let angle = |dice: &mut Dice| {
         let share = dice.between(-1.0, 1.0);
         if dice.coin() { share * greatest_deg } else { share.signum() * greatest_deg }

@@ -7,10 +7,10 @@ use super::dice::Dice;
 
 /// Numbers that [`segments`] reads at most.
 pub const NUMBERS: usize = 8 * 16;
-const MOST_SEGMENTS: usize = 8;
+const MAX_SEGMENTS: usize = 8;
 
 pub fn segments(dice: &mut Dice, most_nodes: usize, dimensions: usize) -> Body {
-    let count = dice.whole(1, (most_nodes / 3).min(MOST_SEGMENTS));
+    let count = dice.whole(1, (most_nodes / 3).min(MAX_SEGMENTS));
     // A segment with a magnet has as many elements on each side of it.
     let most_elements = ((most_nodes - 1) / count - 1) / 2;
     let mut segment: Vec<Segment> = Vec::new();

@@ -160,7 +160,7 @@ fn validates_elastic_forces() {
         }
         let force = DVector::from_iterator(
             q.len(),
-            world.block.right.iter().map(|r| r[0] / world.model.step_s),
+            world.block.rhs.iter().map(|r| r[0] / world.model.step_s),
         );
         let error = (&force - &expected).amax() / expected.amax();
         println!("elastic forces of {name}: error {error:.1e} of {:.2e} N", expected.amax());
@@ -170,7 +170,7 @@ fn validates_elastic_forces() {
 
 /// The equations of a step of Newmark's scheme from any velocities, from finite differences and dense: the matrix
 /// M + Δt (τ + ½ Δt) Σ k g gᵀ + Δt² (0.01 + ½) Σ (T/|e|) n nᵀ over elements in tension; the right-hand side, where both
-/// sums stand with ½ Δt² and the lagging velocity; and the solution, by a dense factorisation, against one step.
+/// sums stand with ½ Δt² and the velocity of the springs; and the solution, by a dense factorisation, against one step.
 #[test]
 fn validates_implicit_step() {
     for (name, mut world) in bodies() {
@@ -179,7 +179,7 @@ fn validates_implicit_step() {
         let (q, dt) = (unknowns(&world), world.model.step_s);
         for k in 0..q.len() {
             world.block.v[k][0] = 0.1 * (1.3 + 3.1 * k as f64).sin();
-            world.block.lagged[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
+            world.block.spring_velocity[k][0] = 0.1 * (0.7 + 2.3 * k as f64).sin();
         }
         kinematics::<Plane, _>(Scalar, &world.model, &mut world.block);
         world.assemble::<Plane>();
@@ -187,8 +187,9 @@ fn validates_implicit_step() {
         let taken_back = expected_matrix(&world, &q, [0.5 * dt, 0.5 * dt]);
         let masses = expected_matrix(&world, &q, [0.0; 2]);
         let v = DVector::from_iterator(q.len(), world.block.v.iter().map(|v| v[0]));
-        let lagged = DVector::from_iterator(q.len(), world.block.lagged.iter().map(|v| v[0]));
-        let mut balance = &masses * v + (taken_back - &masses) * lagged;
+        let of_springs =
+            DVector::from_iterator(q.len(), world.block.spring_velocity.iter().map(|v| v[0]));
+        let mut balance = &masses * v + (taken_back - &masses) * of_springs;
         for (strain, gradient) in strains(&world, &q).iter().zip(gradients(&world, &q)) {
             balance -= gradient * (dt * strain.stiffness * strain.value);
         }
@@ -199,9 +200,9 @@ fn validates_implicit_step() {
             let scale = (matrix[(row, row)] * matrix[(column, column)]).sqrt();
             error = error.max((entry - matrix[(row, column)]).abs() / scale);
         }
-        let right = DVector::from_iterator(q.len(), world.block.right.iter().map(|r| r[0]));
-        let unbalanced = (&right - &balance).amax() / balance.amax();
-        let expected = matrix.lu().solve(&right).expect("regular");
+        let rhs = DVector::from_iterator(q.len(), world.block.rhs.iter().map(|r| r[0]));
+        let unbalanced = (&rhs - &balance).amax() / balance.amax();
+        let expected = matrix.lu().solve(&rhs).expect("regular");
         world.steps(1);
         let solved = DVector::from_iterator(q.len(), world.block.v.iter().map(|v| v[0]));
         let off = (&solved - &expected).amax() / expected.amax();

@@ -147,13 +147,13 @@ fn found(world: &mut World, beta: f64) -> Complex<f64> {
             amplitude(world, beta)
         })
         .collect();
-    let (mut normal, mut right) = (Matrix2::zeros(), Vector2::zeros());
+    let (mut normal, mut rhs) = (Matrix2::zeros(), Vector2::zeros());
     for three in shares.windows(3) {
         let row = Vector2::new(three[1], -three[0]);
         normal += row * row.transpose();
-        right += row * three[2];
+        rhs += row * three[2];
     }
-    let solved = normal.lu().solve(&right).expect("a vibration");
+    let solved = normal.lu().solve(&rhs).expect("a vibration");
     let real = 0.5 * solved[0];
     Complex::new(real, (solved[1] - real * real).sqrt())
 }
@@ -165,7 +165,7 @@ fn validates_implicit_frequency() {
     let beta = 1.87510407;
     let mut case = Case::new("implicit_frequency", "What the implicit schemes do to a vibration")
         .equation(
-            "Euler: z = 1/(1 − iωΔt); Newmark with a lag λ = 0.1: the root of z³ − 2z² + z = −(ωΔt)² (½ z³ + ½ λ z² + (½ − λ) z \
+            "Euler: z = 1/(1 − iωΔt); Newmark with a dissipation λ = 0.1: the root of z³ − 2z² + z = −(ωΔt)² (½ z³ + ½ λ z² + (½ − λ) z \
             + ½ λ) near e^{iωΔt}; ω_Δt = arg z/Δt, decay −ln |z|/Δt",
         )
         .source(

@@ -93,7 +93,7 @@ fn validates_momentum_in_free_flight() {
             origin. Linear momentum is kept to rounding by both schemes, angular momentum by the \
             explicit one. The implicit scheme damps the turning of tension by a retardation time of \
             Δt/100, which is a torque: it loses spin in proportion to Δt, at long steps \
-            with a higher power, by the lag.",
+            with a higher power, by its dissipation.",
         );
     for (integrator, step) in [("'newmark'", "5e-4"), ("'explicit'", "1e-5")] {
         for damping in ["0.0", "2e-3"] {

@@ -57,8 +57,8 @@ impl Body {
         let (model, block) = (&world.model, &mut world.block);
         let dof = model.coordinates.bodies[0];
         (0..dimensions).for_each(|axis| block.q[dof + axis][0] = place_m[axis]);
-        block.right.iter_mut().for_each(|row| row[0] = 0.0);
-        let acting = |k: usize, block: &Block<[f64; 1]>| block.right[dof + k][0] / model.step_s;
+        block.rhs.iter_mut().for_each(|row| row[0] = 0.0);
+        let acting = |k: usize, block: &Block<[f64; 1]>| block.rhs[dof + k][0] / model.step_s;
         if dimensions == 2 {
             kinematics::<Plane, _>(Scalar, model, block);
             equations::magnets::<Plane, _>(Scalar, model, block);

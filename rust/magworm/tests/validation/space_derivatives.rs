@@ -249,7 +249,7 @@ fn errors(mut world: World) -> [f64; 2] {
         expected -= gradient * (strain.stiffness * strain.value);
     }
     let dt = world.model.step_s;
-    let force = DVector::from_iterator(count, world.block.right.iter().map(|r| r[0] / dt));
+    let force = DVector::from_iterator(count, world.block.rhs.iter().map(|r| r[0] / dt));
     let matrix = expected_matrix(&world, &strains, &gradients);
     let mut off = 0.0f64;
     for (row, column) in (0..count).flat_map(|r| (0..=r).map(move |c| (r, c))) {

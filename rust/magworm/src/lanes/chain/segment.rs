@@ -20,7 +20,7 @@ impl<R: Row> Parts<'_, R> {
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [R],
+        rhs: &mut [R],
     ) {
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
         let Range { start, end } = segment.rows.clone();
@@ -28,33 +28,33 @@ impl<R: Row> Parts<'_, R> {
         unrolled!(offset < H => {
             if start + offset < end {
                 factor_row::<I, H, ROW>(isa, rows, start + offset + H, H - offset);
-                substitute::<I, H>(isa, &rows[start + offset + H], H - offset, start + offset, right);
+                substitute::<I, H>(isa, &rows[start + offset + H], H - offset, start + offset, rhs);
             }
         });
         for row in start + H..end {
             factor_row::<I, H, ROW>(isa, rows, row + H, 0);
-            substitute::<I, H>(isa, &rows[row + H], 0, row, right);
+            substitute::<I, H>(isa, &rows[row + H], 0, row, rhs);
         }
-        if segment.left.is_some() {
-            self.eliminate_left::<I, H, ROW, K>(isa, segment, right);
+        if segment.before.is_some() {
+            self.eliminate_body_before::<I, H, ROW, K>(isa, segment, rhs);
         }
-        if let Some(first) = segment.right {
+        if let Some(first) = segment.behind {
             for slot in 0..K {
-                self.eliminate_right::<I, H, ROW, K>(isa, segment, [first, slot], right);
+                self.eliminate_body_behind::<I, H, ROW, K>(isa, segment, [first, slot], rhs);
             }
         }
     }
 
     /// The body before a segment: carries its border down, and takes what the segment adds to it.
     #[inline(always)]
-    fn eliminate_left<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_body_before<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
-        right: &mut [R],
+        rhs: &mut [R],
     ) {
-        let Some(left) = segment.left else { return };
-        let Some(place) = self.chain.place(left) else { return };
+        let Some(before) = segment.before else { return };
+        let Some(place) = self.chain.place(before) else { return };
         let (rows, _) = self.band.as_chunks::<ROW>();
         let (border, _) = self.border.as_chunks_mut::<K>();
         let zero = isa.splat(0.0);
@@ -74,7 +74,7 @@ impl<R: Row> Parts<'_, R> {
                 }
             }
             let inverse = isa.load(&rows[row + H][H]);
-            let y = isa.load(&right[row]);
+            let y = isa.load(&rhs[row]);
             for j in 0..K {
                 isa.store(u[j], &mut border[row][j]);
                 let scaled = u[j] * inverse;
@@ -85,7 +85,7 @@ impl<R: Row> Parts<'_, R> {
             }
         }
         for j in 0..K {
-            subtract(isa, &mut right[left + j], loads[j]);
+            subtract(isa, &mut rhs[before + j], loads[j]);
             for i in 0..=j {
                 subtract(isa, &mut self.kept[self.chain.kept.at(place + j, place + i)], sums[j][i]);
             }
@@ -94,12 +94,12 @@ impl<R: Row> Parts<'_, R> {
 
     /// A row of the body behind a segment, and what the segment adds to it.
     #[inline(always)]
-    fn eliminate_right<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
+    fn eliminate_body_behind<I: Isa<Row = R>, const H: usize, const ROW: usize, const K: usize>(
         &mut self,
         isa: I,
         segment: &Segment,
         [first, slot]: [usize; 2],
-        right: &mut [R],
+        rhs: &mut [R],
     ) {
         let Some(place) = self.chain.place(first) else { return };
         let (rows, _) = self.band.as_chunks_mut::<ROW>();
@@ -110,7 +110,7 @@ impl<R: Row> Parts<'_, R> {
         let count = H - slot - start;
         let at = row + start - H;
         let (entries, above_entries) = (&mut below[0], &above[row + start..][..count]);
-        let known = &right[at..][..count];
+        let known = &rhs[at..][..count];
         let mut u = [isa.splat(0.0); H];
         let mut load = isa.splat(0.0);
         for k in 0..count {
@@ -126,7 +126,7 @@ impl<R: Row> Parts<'_, R> {
             load = load + l * isa.load(&known[k]);
         }
         let u = &u[..count];
-        subtract(isa, &mut right[row], load);
+        subtract(isa, &mut rhs[row], load);
         let kept = &self.chain.kept;
         for other in 0..=slot {
             let l = if other == slot { &below[0] } else { &above[first + other + H] };
@@ -137,7 +137,9 @@ impl<R: Row> Parts<'_, R> {
             }
             subtract(isa, &mut self.kept[kept.at(place + slot, place + other)], sum);
         }
-        let Some(left) = segment.left.and_then(|left| self.chain.place(left)) else { return };
+        let Some(before) = segment.before.and_then(|before| self.chain.place(before)) else {
+            return;
+        };
         let (border, _) = self.border.as_chunks::<K>();
         let (factors, border) = (&below[0][start..][..count], &border[at..][..count]);
         for j in 0..K {
@@ -145,7 +147,7 @@ impl<R: Row> Parts<'_, R> {
             for k in 0..count {
                 sum = sum + isa.load(&factors[k]) * isa.load(&border[k][j]);
             }
-            subtract(isa, &mut self.kept[kept.at(place + slot, left + j)], sum);
+            subtract(isa, &mut self.kept[kept.at(place + slot, before + j)], sum);
         }
     }
 }
@@ -168,10 +170,10 @@ fn substitute<I: Isa, const H: usize>(
     factored: &[I::Row],
     first: usize,
     row: usize,
-    right: &mut [I::Row],
+    rhs: &mut [I::Row],
 ) {
     let reach = H - first;
-    let (known, unknown) = right.split_at_mut(row);
+    let (known, unknown) = rhs.split_at_mut(row);
     let (factors, known) = (&factored[first..H], &known[row - reach..]);
     let mut sum = isa.load(&unknown[0]);
     for k in 0..reach {
@@ -187,17 +189,17 @@ pub(super) fn recover<I: Isa, const H: usize, const ROW: usize, const K: usize>(
     segment: &Segment,
     band: &[I::Row],
     border: &[I::Row],
-    right: &[I::Row],
+    rhs: &[I::Row],
     solution: &mut [I::Row],
 ) {
     let (rows, _) = band.as_chunks::<ROW>();
     let (border, _) = border.as_chunks::<K>();
-    let end = segment.right.map_or(segment.rows.end, |right| right + K);
+    let end = segment.behind.map_or(segment.rows.end, |behind| behind + K);
     for row in segment.rows.clone().rev() {
-        let mut sum = isa.load(&right[row]);
-        if let Some(left) = segment.left {
+        let mut sum = isa.load(&rhs[row]);
+        if let Some(before) = segment.before {
             for j in 0..K {
-                sum = sum - isa.load(&border[row][j]) * isa.load(&solution[left + j]);
+                sum = sum - isa.load(&border[row][j]) * isa.load(&solution[before + j]);
             }
         }
         sum = sum * isa.load(&rows[row + H][H]);

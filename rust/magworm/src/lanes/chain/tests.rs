@@ -43,18 +43,18 @@ fn solves(bodies: &[usize], body: usize, size: usize, reach: usize, numbers: &[f
         free = first + body;
     }
     let (dense, mut matrix) = random(&chain, reach, numbers);
-    let mut right: Vec<[f64; 1]> = (0..size).map(|k| [numbers[k % numbers.len()] + 0.5]).collect();
-    let expected = DVector::from_iterator(size, right.iter().map(|r| r[0]));
+    let mut rhs: Vec<[f64; 1]> = (0..size).map(|k| [numbers[k % numbers.len()] + 0.5]).collect();
+    let expected = DVector::from_iterator(size, rhs.iter().map(|r| r[0]));
     let expected = dense.lu().solve(&expected).expect("regular");
-    chain.condense(Scalar, &mut matrix, &mut right);
+    chain.condense(Scalar, &mut matrix, &mut rhs);
     let kept = chain.kept();
     let mut own: Vec<[f64; 1]> = chain.kept_entries(&matrix)[..kept.entries()].to_vec();
-    let mut found: Vec<[f64; 1]> = chain.unknowns().iter().map(|&k| right[k]).collect();
+    let mut found: Vec<[f64; 1]> = chain.unknowns().iter().map(|&k| rhs[k]).collect();
     kept.factor(Scalar, &mut own);
     kept.solve(Scalar, &own, &mut found);
     let mut solution = vec![[0.0]; size];
     chain.unknowns().iter().zip(found).for_each(|(&k, value)| solution[k] = value);
-    chain.recover(Scalar, &matrix, &right, &mut solution);
+    chain.recover(Scalar, &matrix, &rhs, &mut solution);
     (0..size).map(|k| (solution[k][0] - expected[k]).abs()).fold(0.0, f64::max)
 }
 
@@ -66,8 +66,8 @@ fn a_matrix_that_was_eliminated_is_zeros_once_it_is_cleared() {
         chain.couple(&[0, 1]);
         let numbers: Vec<f64> = (0..97).map(|k| (f64::from(k) * 0.7).sin()).collect();
         let (_, mut matrix) = random(&chain, reach, &numbers);
-        let mut right = vec![[1.0]; size];
-        chain.condense(Scalar, &mut matrix, &mut right);
+        let mut rhs = vec![[1.0]; size];
+        chain.condense(Scalar, &mut matrix, &mut rhs);
         chain.kept().factor(Scalar, &mut matrix[chain.start_of_kept()..]);
         assert!(matrix.iter().any(|row| row[0] != 0.0));
         chain.clear(Scalar, &mut matrix);

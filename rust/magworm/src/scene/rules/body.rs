@@ -4,7 +4,7 @@ use super::super::error::Problem;
 use super::super::schema::quantity;
 use super::super::segments::NOTHING;
 use super::super::{Body, Magnet, Scene, Worm};
-use super::elements::{MOST_NODES, elements_long_enough, rubber_at_the_end};
+use super::elements::{MAX_NODES, elements_long_enough, rubber_at_the_end};
 use super::rod::check_rod;
 use super::segments::check_segments;
 use super::{no_longer, require};
@@ -68,7 +68,7 @@ fn worm_elements(worm: &Worm, magnet: &Magnet) -> Result<(), Problem> {
     }
     elements_long_enough("body.elements_per_bridge", bridges, worm.pitch_m - worm.foot_length_m)?;
     let nodes = worm.magnets * (2 * ends + 1) + (worm.magnets - 1) * bridges + 1;
-    require(nodes <= MOST_NODES, "body.elements_per_bridge", bridges.to_string(), || {
-        format!("at most {MOST_NODES} nodes in the body, here {nodes}")
+    require(nodes <= MAX_NODES, "body.elements_per_bridge", bridges.to_string(), || {
+        format!("at most {MAX_NODES} nodes in the body, here {nodes}")
     })
 }

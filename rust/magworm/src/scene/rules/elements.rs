@@ -10,7 +10,7 @@ use super::{require, rounded};
 /// needs rubber for its mass.
 pub(super) const FULLEST_END: f64 = 1.0 - 1e-6;
 /// Most nodes of a body.
-pub(super) const MOST_NODES: usize = 1000;
+pub(super) const MAX_NODES: usize = 1000;
 
 /// A magnet that the body ends with leaves rubber beside it.
 pub(super) fn rubber_at_the_end(

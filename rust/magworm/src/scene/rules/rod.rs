@@ -5,7 +5,7 @@ use super::super::fields::SHORTEST_ELEMENT_M;
 use super::super::schema::{number, quantity};
 use super::super::segments::NOTHING;
 use super::super::{Clamp, Magnet, Rod};
-use super::elements::{MOST_NODES, elements_long_enough, rubber_at_the_end};
+use super::elements::{MAX_NODES, elements_long_enough, rubber_at_the_end};
 use super::{no_longer, require, rounded};
 
 /// Shortest gap beside a magnet, less rounding [m].
@@ -16,8 +16,8 @@ pub(super) fn check_rod(rod: &Rod, magnet: Option<&Magnet>) -> Result<(), Proble
     let count = rod.magnets.len();
     // Each magnet is an element, and each stretch between magnets may round up to one more.
     let nodes = rod.elements + 1 + if count > 0 { 2 * count + 1 } else { 0 };
-    require(nodes <= MOST_NODES, "body.elements", rod.elements.to_string(), || {
-        format!("at most {MOST_NODES} nodes in the body, here up to {nodes}")
+    require(nodes <= MAX_NODES, "body.elements", rod.elements.to_string(), || {
+        format!("at most {MAX_NODES} nodes in the body, here up to {nodes}")
     })?;
     // The clamp holds the first element: alone it would leave nothing to move.
     require(rod.clamp == Clamp::None || rod.elements > 1, "body.elements", "1".into(), || {

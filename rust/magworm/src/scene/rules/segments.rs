@@ -1,10 +1,10 @@
 //! Rules of a body of segments: magnets fit into their segments, rubber holds them apart.
 
 use super::super::error::Problem;
-use super::super::fields::{MOST_MAGNETS, SHORTEST_ELEMENT_M};
+use super::super::fields::{MAX_MAGNETS, SHORTEST_ELEMENT_M};
 use super::super::schema::{number, quantity};
 use super::super::{Clamp, Segment, SegmentMagnet, Segments};
-use super::elements::{FULLEST_END, MOST_NODES, elements_long_enough};
+use super::elements::{FULLEST_END, MAX_NODES, elements_long_enough};
 use super::{no_longer, require, rounded};
 
 pub(super) fn check_segments(body: &Segments) -> Result<(), Problem> {
@@ -115,10 +115,10 @@ fn rubber_at_both_ends(body: &Segments) -> Result<(), Problem> {
 fn counts(body: &Segments) -> Result<(), Problem> {
     let magnets = body.segment.iter().filter(|segment| segment.magnet.is_some()).count();
     require(
-        magnets <= MOST_MAGNETS as usize,
+        magnets <= MAX_MAGNETS as usize,
         "body.segment",
         format!("a list with {magnets} magnets"),
-        || format!("at most {MOST_MAGNETS} magnets"),
+        || format!("at most {MAX_MAGNETS} magnets"),
     )?;
     let elements = |segment: &Segment| match &segment.magnet {
         Some(magnet) => {
@@ -128,10 +128,7 @@ fn counts(body: &Segments) -> Result<(), Problem> {
         None => segment.elements,
     };
     let nodes = 1 + body.segment.iter().map(elements).sum::<usize>();
-    require(
-        nodes <= MOST_NODES,
-        "body.segment",
-        format!("a list of {}", body.segment.len()),
-        || format!("at most {MOST_NODES} nodes in the body, here {nodes}"),
-    )
+    require(nodes <= MAX_NODES, "body.segment", format!("a list of {}", body.segment.len()), || {
+        format!("at most {MAX_NODES} nodes in the body, here {nodes}")
+    })
 }

@@ -11,7 +11,7 @@ const SHORTEST_IMPLICIT_STEP_S: f64 = 1e-5;
 /// moves 500 nm in it.
 const SHORTEST_SINGLE_STEP_S: f64 = 5e-4;
 /// Most steps that one period may hold; beyond it "a whole number" drowns in rounding.
-const MOST_STEPS: f64 = 1e8;
+const MAX_STEPS: f64 = 1e8;
 /// Relative error of a ratio that still counts as whole.
 const WHOLE: f64 = 1e-9;
 
@@ -66,7 +66,7 @@ fn precision(scene: &Scene) -> Result<(), Problem> {
 fn whole_number(field: &str, period_s: f64, part: &str, part_s: f64) -> Result<(), Problem> {
     let ratio = period_s / part_s;
     let whole = ratio.round();
-    let holds = (1.0..=MOST_STEPS).contains(&whole) && (ratio - whole).abs() <= WHOLE * whole;
+    let holds = (1.0..=MAX_STEPS).contains(&whole) && (ratio - whole).abs() <= WHOLE * whole;
     require(holds, field, quantity(period_s, "s"), || {
         format!("1 to 1e8 times {part} = {}, a whole number of times", quantity(part_s, "s"))
     })
