@@ -142,18 +142,11 @@ pub fn body_axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [Vec3<I:
     [Vector::load(isa, rows), Vector::load(isa, &rows[3..]), Vector::load(isa, &rows[6..])]
 }
 
-/// Tangent, up and side of a magnet, as arrays.
-#[inline(always)]
-pub fn axes<I: Isa>(isa: I, block: &Block<I::Row>, body: usize) -> [[I::F; 3]; 3] {
-    let [tangent, up, side] = body_axes(isa, block, body);
-    [tangent.0, up.0, side.0]
-}
-
 /// M on the left and M v on the right for the rotation of the magnets, whose inertia Σ I a aᵀ turns with their axes a.
 #[inline(always)]
 pub fn rotary_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
-        let a = axes(isa, block, body);
+        let a = body_axes(isa, block, body);
         let first = dof + 3;
         for row in 0..3 {
             let mut momentum = isa.splat(0.0);

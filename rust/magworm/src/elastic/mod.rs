@@ -17,7 +17,6 @@ mod rod;
 mod stretch;
 mod twist;
 
-pub use frames::axes;
 pub use kinematics::{place, update as kinematics};
 pub use rod::Rod;
 pub use stretch::assemble as stretch;

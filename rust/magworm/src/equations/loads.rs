@@ -2,9 +2,9 @@
 
 use super::{hold, off_centre};
 use crate::actuator::{Actuator, Layout, states};
-use crate::elastic::{self, Rod};
+use crate::elastic::Rod;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Dim, Isa, Mask, Real, Vector};
+use crate::lanes::{Components, Dim, Isa, Mask, Real, Space, Vec3, Vector};
 use crate::model::{Magnetics, Model, PairModel};
 use crate::state::Block;
 
@@ -26,7 +26,7 @@ pub fn gravity<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
 
 /// Adds Δt times the magnetic wrench on every body magnet.
 #[inline(always)]
-pub fn magnets<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+pub fn magnets<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let program = &model.program;
     if program.magnetics.is_none() && program.uniform_field.is_none() {
         return;
@@ -68,9 +68,9 @@ struct Sources<'a, I: Isa> {
     layout: &'a Layout,
     /// x of the centre of the stage's robot [m].
     robot: I::F,
-    /// x, y, in space z of the stage [m].
-    stage: [I::F; 3],
-    /// Sine and cosine of its yaw in space.
+    /// x, y, z of the stage [m].
+    stage: Vec3<I::F>,
+    /// Sine and cosine of its yaw.
     yaw: (I::F, I::F),
 }
 
@@ -81,17 +81,18 @@ impl<'a, I: Isa> Sources<'a, I> {
         let mut actuators = states(&model.program.actuators, &block.stage);
         let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
         let (stage, state): (_, &[I::Row]) = actuators.find_map(stage)?;
-        let at = |row: usize| isa.load(&state[row]);
-        let zero = isa.splat(0.0);
-        let yaw = if D::AXES == 3 { sin_cos(at(3)) } else { (zero, zero) };
-        let z = if D::AXES == 3 { at(2) } else { zero };
+        // An axis that a stage lacks is at 0.
+        let mut axes = [isa.splat(0.0); 4];
+        (0..D::STAGE).for_each(|axis| axes[axis] = isa.load(&state[axis]));
+        let [x, y, z, yaw] = axes;
         let robot = block.centre_x_of_lanes(isa, model, stage.robot);
-        Some(Self { layout: &stage.layout, robot, stage: [at(0), at(1), z], yaw })
+        let (layout, stage) = (&stage.layout, Vector([x, y, z]));
+        Some(Self { layout, robot, stage, yaw: sin_cos(yaw) })
     }
 }
 
 #[inline(always)]
-fn uniform_torque<D: Dim, I: Isa>(
+fn uniform_torque<D: Rod, I: Isa>(
     isa: I,
     model: &Model,
     block: &Block<I::Row>,
@@ -99,21 +100,13 @@ fn uniform_torque<D: Dim, I: Isa>(
     wrench: &mut [I::F; WRENCH],
 ) {
     let Some(field) = &model.program.uniform_field else { return };
-    let [bx, by, bz] =
-        [isa.splat(field.field_t[0]), isa.splat(field.field_t[1]), isa.splat(field.field_t[2])];
+    let moment = model.mesh.magnets[body].direction.in_space(&D::axes_before(isa, block, body));
+    let field_t = Vector(field.field_t.map(|component| isa.splat(component)));
     let remanence = isa.load(&block.remanence[body]);
-    let direction = model.mesh.magnets[body].direction;
-    if D::AXES == 2 {
-        let cos = isa.load(&block.frame[2 * body]);
-        let sin = isa.load(&block.frame[2 * body + 1]);
-        let [cos, sin] = direction.frame(cos, sin);
-        wrench[2] = wrench[2] + field.magnets[body].torque(bx, by, cos, sin, remanence);
-    } else {
-        let moment = direction.in_space(&elastic::axes(isa, block, body));
-        let torque = field.magnets[body].torque_in_space([bx, by, bz], &moment, remanence);
-        for k in 0..3 {
-            wrench[3 + k] = wrench[3 + k] + torque[k];
-        }
+    let torque = field.magnets[body].torque(field_t, moment, remanence);
+    for k in 0..D::ROTATIONS {
+        // In the plane about z alone.
+        wrench[D::AXES + k] = wrench[D::AXES + k] + torque[3 - D::ROTATIONS + k];
     }
 }
 
@@ -136,7 +129,7 @@ fn planar_wrench<I: Isa>(
     if let Some(arm) = arm {
         (x, y) = (x + arm[0], y + arm[1]);
     }
-    let Sources { layout, robot, stage: [stage_x, stage_y, _], .. } = *sources;
+    let Sources { layout, robot, stage: Vector([stage_x, stage_y, _]), .. } = *sources;
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
     for pair in &magnetics.pairs[body] {
         let dx = x - layout.position(pair.source, stage_x, robot);
@@ -175,31 +168,29 @@ fn spatial_wrench<I: Isa>(
     let Sources { layout, robot, stage, yaw: (sin, cos) } = *sources;
     let (magnet, dof) = (&model.mesh.magnets[body], model.coordinates.bodies[body]);
     let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
-    let mut axes = elastic::axes(isa, block, body);
+    let frame = Space::axes_before(isa, block, body);
     let arm = magnet
         .offset_m
-        .map(|[a, u, s]| [0, 1, 2].map(|k| axes[0][k] * a + axes[1][k] * u + axes[2][k] * s));
-    let mut place = [0, 1, 2].map(|k| isa.load(&block.q[dof + k]));
-    if let Some(arm) = &arm {
-        place = [0, 1, 2].map(|k| place[k] + arm[k]);
+        .map(|offset_m| Space::to_world(Vector::load(isa, &block.frame[9 * body..]), offset_m));
+    let mut place = Vec3::load(isa, &block.q[dof..]);
+    if let Some(arm) = arm {
+        place = place + arm;
     }
-    for k in 0..3 {
-        axes[k] = turned(&axes[k], cos, -sin);
-    }
+    let axes = frame.map(|axis| turned(axis, cos, -sin));
     for pair in &magnetics.pairs[body] {
         let [x, z] = layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
-        let offset = [place[0] - x, place[1] - stage[1], place[2] - z];
-        let offset = turned(&offset, cos, -sin);
+        let offset = turned(place - Vector([x, stage[1], z]), cos, -sin);
         let wrench = match &magnetics.models[pair.model] {
-            PairModel::SpatialCuboid(pair) => pair.wrench(offset, axes),
+            PairModel::SpatialCuboid(pair) => pair.wrench(offset.0, axes.map(|axis| axis.0)),
             PairModel::SpatialDipole(pair) => {
-                pair.wrench(&offset, &magnet.direction.in_space(&axes))
+                pair.wrench(&offset.0, &magnet.direction.in_space(&axes).0)
             }
             PairModel::Cuboid(_) | PairModel::ObliqueCuboid(_) | PairModel::Dipole(_) => continue,
         };
+        let [fx, fy, fz, tx, ty, tz] = wrench;
         let strength = remanence * layout.polarity[pair.source];
-        let force = turned(&[wrench[0], wrench[1], wrench[2]], cos, sin);
-        let torque = turned(&[wrench[3], wrench[4], wrench[5]], cos, sin);
+        let force = turned(Vector([fx, fy, fz]), cos, sin);
+        let torque = turned(Vector([tx, ty, tz]), cos, sin);
         for axis in 0..3 {
             total[axis] = total[axis] + force[axis] * strength * magnetics.terms[axis];
             total[3 + axis] = total[3 + axis] + torque[axis] * strength * magnetics.terms[3 + axis];
@@ -207,13 +198,13 @@ fn spatial_wrench<I: Isa>(
         block.counters.wrenches += 1;
     }
     if let Some(arm) = arm {
-        let moment = Vector(arm).cross(Vector([total[0], total[1], total[2]]));
+        let moment = arm.cross(Vector([total[0], total[1], total[2]]));
         (0..3).for_each(|k| total[3 + k] = total[3 + k] + moment[k]);
     }
 }
 
 /// A vector turned about the vertical, anticlockwise seen from above: x goes towards −z.
 #[inline(always)]
-fn turned<F: Real>(a: &[F; 3], cos: F, sin: F) -> [F; 3] {
-    [a[0] * cos + a[2] * sin, a[1], a[2] * cos - a[0] * sin]
+fn turned<F: Real>(a: Vec3<F>, cos: F, sin: F) -> Vec3<F> {
+    Vector([a[0] * cos + a[2] * sin, a[1], a[2] * cos - a[0] * sin])
 }

@@ -4,7 +4,7 @@ use super::cuboid::{unit_field, unit_field_outside};
 use super::dipole::dipole_field_t;
 use super::*;
 use crate::lanes::math::sin_cos;
-use crate::lanes::{Isa, WIDE, WideTask, run_wide};
+use crate::lanes::{Isa, Vector, WIDE, WideTask, run_wide};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
@@ -162,8 +162,10 @@ fn dipole_wrench_is_the_far_limit() {
 fn uniform_field_turns_the_moment_towards_itself() {
     let moment = BODY.volume_m3() * 1.22 / MU_0;
     let (sin, cos) = sin_cos(0.4);
-    let torque = UniformField::new(BODY).torque(0.0, 0.01, cos, sin, 1.22);
-    assert!((torque + moment * 0.01 * 0.4_f64.sin()).abs() < 1e-16);
+    let (field_t, up) = (Vector([0.0, 0.01, 0.0]), Vector([-sin, cos, 0.0]));
+    let torque = UniformField::new(BODY).torque(field_t, up, 1.22);
+    assert!((torque[2] + moment * 0.01 * 0.4_f64.sin()).abs() < 1e-16);
+    assert_eq!([torque[0], torque[1]], [0.0; 2]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Direction of a magnet's remanence in the frame of its body: along it, up and to its side.
 
-use crate::lanes::Real;
 use crate::lanes::math::{radians, sin_cos};
+use crate::lanes::{Real, Vec3, Vector};
 
 /// A direction; most magnets point up or, with a negative remanence, down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,11 +32,13 @@ impl Direction {
 
     /// The direction in space of a body with these axes.
     #[inline(always)]
-    pub fn in_space<F: Real>(&self, axes: &[[F; 3]; 3]) -> [F; 3] {
+    pub fn in_space<F: Real>(&self, axes: &[Vec3<F>; 3]) -> Vec3<F> {
         match *self {
             Self::Up => axes[1],
-            Self::Oblique(part) => [0, 1, 2]
-                .map(|k| axes[0][k] * part[0] + axes[1][k] * part[1] + axes[2][k] * part[2]),
+            Self::Oblique(part) => Vector(
+                [0, 1, 2]
+                    .map(|k| axes[0][k] * part[0] + axes[1][k] * part[1] + axes[2][k] * part[2]),
+            ),
         }
     }
 }
