@@ -37,7 +37,7 @@ fn magnets(model: &Model) -> Range<usize> {
 /// A scene without actuators is seen as one whose stage stands still: an agent finds all else in its place.
 fn sizes(model: &Model) -> Sizes {
     match model.program.actuators.as_slice() {
-        [] => Stage::sizes_without_yaw(model.dimensions()),
+        [] => Stage::sizes_in(model.sizes(), false),
         actuators => Sizes::of(actuators),
     }
 }

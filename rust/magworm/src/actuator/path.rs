@@ -3,7 +3,7 @@
 use super::axis;
 use super::rows::{ActuatorRows, Clock};
 use crate::lanes::math::radians;
-use crate::lanes::{Isa, Number, Row};
+use crate::lanes::{Dim, Isa, Number, Row};
 use crate::scene::{Drive, Motion, Reference};
 
 /// Motion of a stage. Places are x, y, z [m] and yaw [rad]; in the plane the last two are 0.
@@ -58,7 +58,7 @@ impl Limits {
 }
 
 /// The axis of yaw, after x, y and z.
-const YAW: usize = 3;
+pub(super) const YAW: usize = 3;
 
 /// Places and velocities of the axes of a stage.
 type Motions<F> = ([F; 4], [F; 4]);
@@ -101,14 +101,14 @@ impl Path {
 
     /// Where the stage is at the end of a step, and how fast it moves.
     #[inline(always)]
-    pub fn advance<const AXES: usize, I: Isa>(
+    pub fn advance<D: Dim, I: Isa>(
         &self,
         isa: I,
         rows: &ActuatorRows<'_, I::Row>,
         clock: Clock<'_, I>,
     ) -> Motions<I::F> {
         match self {
-            Self::Controlled(limits) => follow::<AXES, I>(isa, limits, rows, clock.step_s),
+            Self::Controlled(limits) => follow::<D, I>(isa, limits, rows, clock.step_s),
             Self::Constant { start, speed_m_s } => on_lanes(isa, clock, |lane, time_s| {
                 let speed = clock.speed_factor[lane].f64() * speed_m_s;
                 let [x, y, z, yaw] = *start;
@@ -123,7 +123,7 @@ impl Path {
 
 /// Each axis on its own towards its target; yaw is as much slower as its limit is.
 #[inline(always)]
-fn follow<const AXES: usize, I: Isa>(
+fn follow<D: Dim, I: Isa>(
     isa: I,
     limits: &Limits,
     rows: &ActuatorRows<'_, I::Row>,
@@ -131,8 +131,8 @@ fn follow<const AXES: usize, I: Isa>(
 ) -> Motions<I::F> {
     let zero = isa.splat(0.0);
     let (mut place, mut speed) = ([zero; 4], [zero; 4]);
-    let greatest = isa.load(&rows.target[AXES]);
-    for axis in 0..AXES {
+    let greatest = isa.load(&rows.target[D::STAGE]);
+    for axis in 0..D::STAGE {
         let limit = if axis == YAW {
             greatest * (limits.yaw_speed_rad_s / limits.speed_m_s)
         } else {
@@ -141,7 +141,7 @@ fn follow<const AXES: usize, I: Isa>(
         (place[axis], speed[axis]) = axis::advance(
             limits.acceleration(axis),
             isa.load(&rows.state[axis]),
-            isa.load(&rows.state[AXES + axis]),
+            isa.load(&rows.state[D::STAGE + axis]),
             isa.load(&rows.target[axis]),
             limit,
             step_s,

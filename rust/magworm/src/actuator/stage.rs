@@ -1,7 +1,10 @@
 //! A stage that carries magnets beneath the ground: along x and up in the plane, also aside and in yaw in space.
+//!
+//! It is written for the axes x, y, z and yaw. In the plane it has the first two, and a robot there stands at z = 0 with
+//! heading 0; so the others stay at 0, and are neither stored nor shown.
 
 use super::layout::Layout;
-use super::path::{Limits, Path};
+use super::path::{Limits, Path, YAW};
 use super::rows::{ActuatorRows, Clock, Sizes};
 use crate::draws::Draws;
 use crate::lanes::math::sin_cos;
@@ -15,7 +18,7 @@ use std::f64::consts::TAU;
 /// targets are those of the axes, then their greatest speed [m/s].
 #[derive(Clone, Debug)]
 pub struct Stage {
-    dimensions: usize,
+    sizes: Dimensions,
     /// The robot that its targets and its start lie around and that its belt comes round beneath: a place in the list
     /// of a scene's robots.
     pub robot: usize,
@@ -36,12 +39,22 @@ enum Component {
 }
 
 impl Component {
-    /// Those of a stage, in the order of an action. Yaw is one where the stage can turn.
-    const fn of(dimensions: usize, turns: bool) -> &'static [Self] {
-        match (dimensions, turns) {
-            (2, _) => &[Self::Along, Self::Height, Self::Speed],
-            (_, false) => &[Self::Along, Self::Aside, Self::Height, Self::Speed],
-            (_, true) => &[Self::Along, Self::Aside, Self::Height, Self::Speed, Self::Yaw],
+    /// All, in the order of an action.
+    const ALL: [Self; 5] = [Self::Along, Self::Aside, Self::Height, Self::Speed, Self::Yaw];
+
+    /// Those of a stage, which may turn by command.
+    fn of(sizes: Dimensions, turns: bool) -> impl Iterator<Item = Self> {
+        let axes = if turns { sizes.stage } else { sizes.axes };
+        Self::ALL.into_iter().filter(move |component| component.axis() < axes)
+    }
+
+    /// Place among x, y, z and yaw of the axis that it needs; all have a speed.
+    const fn axis(self) -> usize {
+        match self {
+            Self::Along | Self::Speed => 0,
+            Self::Height => 1,
+            Self::Aside => 2,
+            Self::Yaw => YAW,
         }
     }
 
@@ -72,13 +85,14 @@ impl Stage {
     /// The stage of a scene, beneath its first robot.
     pub fn new(drive: &Drive, dimensions: usize) -> Self {
         let (layout, path) = (Layout::new(&drive.arrangement), Path::new(drive));
-        Self { dimensions, robot: 0, layout, path }
+        Self { sizes: Dimensions::new(dimensions), robot: 0, layout, path }
     }
 
     /// One that stands still, with a single magnet.
     pub fn standing(dimensions: usize) -> Self {
         let path = Path::Constant { start: [0.0; 4], speed_m_s: 0.0 };
-        Self { dimensions, robot: 0, layout: Layout::new(&Arrangement::Single), path }
+        let layout = Layout::new(&Arrangement::Single);
+        Self { sizes: Dimensions::new(dimensions), robot: 0, layout, path }
     }
 
     /// Its limits, where it follows commands.
@@ -89,14 +103,20 @@ impl Stage {
         }
     }
 
-    fn components(&self) -> &'static [Component] {
-        let turns = self.limits().is_some_and(|limits| limits.yaw_reach_rad > 0.0);
-        Component::of(self.dimensions, turns)
+    /// Whether it turns by command.
+    fn turns(&self) -> bool {
+        self.limits().is_some_and(|limits| limits.yaw_reach_rad > 0.0)
     }
 
-    /// Axes: x, y in the plane; x, y, z and yaw in space.
-    pub const fn axes(dimensions: usize) -> usize {
-        Dimensions::new(dimensions).stage
+    fn components(&self) -> impl Iterator<Item = Component> {
+        Component::of(self.sizes, self.turns())
+    }
+
+    /// x, y, z [m] and yaw [rad] from its rows.
+    fn place_in(&self, row: impl Fn(usize) -> f64) -> [f64; 4] {
+        let mut place = [0.0; 4];
+        (0..self.sizes.stage).for_each(|axis| place[axis] = row(axis));
+        place
     }
 }
 
@@ -104,17 +124,15 @@ impl Stage {
 impl Stage {
     /// See [`super::Actuator::magnet_place`].
     pub fn magnet_place(&self, magnet: usize, state: &[f64], robot_x: f64) -> Vec<f64> {
-        if self.dimensions == 2 {
-            return vec![self.layout.position(magnet, state[0], robot_x), state[1]];
-        }
-        let (sin, cos) = sin_cos(state[3]);
-        let [x, z] = self.layout.place(magnet, state[0], state[2], robot_x, sin, cos);
-        vec![x, state[1], z, state[3]]
+        let [x, y, z, yaw] = self.place_in(|row| state[row]);
+        let (sin, cos) = sin_cos(yaw);
+        let [x, z] = self.layout.place(magnet, x, z, robot_x, sin, cos);
+        [x, y, z, yaw][..self.sizes.stage].to_vec()
     }
 
     /// See [`super::Actuator::velocity`].
     pub fn velocity(&self, state: &[f64]) -> Vec<f64> {
-        state[Self::axes(self.dimensions)..].to_vec()
+        state[self.sizes.stage..].to_vec()
     }
 }
 
@@ -122,42 +140,38 @@ impl Stage {
 impl Stage {
     /// How many rows it needs.
     pub fn sizes(&self) -> Sizes {
-        Sizes { action: self.components().len(), ..Self::sizes_without_yaw(self.dimensions) }
+        Self::sizes_in(self.sizes, self.turns())
     }
 
-    /// How many rows one needs that does not turn by command.
-    pub const fn sizes_without_yaw(dimensions: usize) -> Sizes {
-        let axes = Self::axes(dimensions);
+    /// How many rows one needs in the plane or in space that turns by command, or does not. Yaw is seen as cosine and sine.
+    pub fn sizes_in(sizes: Dimensions, turns: bool) -> Sizes {
         Sizes {
-            state: 2 * axes,
-            target: axes + 1,
-            action: Component::of(dimensions, false).len(),
-            observation: if dimensions == 2 { 4 } else { 9 },
+            state: 2 * sizes.stage,
+            target: sizes.stage + 1,
+            action: Component::of(sizes, turns).count(),
+            observation: 2 * sizes.stage + sizes.yaws(),
         }
     }
 
     /// Its components of an action.
     pub fn action(&self) -> Vec<Specification> {
-        self.components().iter().map(|component| component.specification()).collect()
+        self.components().map(Component::specification).collect()
     }
 
     /// Its components of an observation.
     pub fn observation(&self, scales: &Scales) -> Vec<Specification> {
         let slice = Specification::new;
+        let (axes, yaws) = (self.sizes.axes, self.sizes.yaws());
         let (length, speed) = (scales.length(), scales.speed());
-        if self.dimensions == 2 {
-            let place = "x of the drive from the robot's centre, and its height";
-            return vec![
-                slice("drive_position", &length, 2, place),
-                slice("drive_velocity", &speed, 2, "velocity of the drive along x and y"),
-            ];
-        }
-        vec![
-            slice("drive_position", &length, 3, "x, y, z of the drive"),
-            slice("drive_yaw", "1", 2, "cosine and sine of the drive's yaw"),
-            slice("drive_velocity", &speed, 3, "velocity of the drive along x, y, z"),
-            slice("drive_rate", &scales.rate(), 1, "angular velocity of the drive about y"),
-        ]
+        let place = "place of the drive along each axis; x from the robot's centre";
+        let mut slices = vec![
+            slice("drive_position", &length, axes, place),
+            slice("drive_yaw", "1", 2 * yaws, "cosine and sine of the drive's yaw"),
+            slice("drive_velocity", &speed, axes, "velocity of the drive along each axis"),
+            slice("drive_rate", &scales.rate(), yaws, "angular velocity of the drive about y"),
+        ];
+        slices.retain(|slice| slice.size > 0);
+        slices
     }
 
     /// Writes these components of one lane.
@@ -171,7 +185,7 @@ impl Stage {
     ) {
         let at = |row: usize| state[row][lane].f64();
         let centre = from.robot[0];
-        if self.dimensions == 2 {
+        if self.sizes.axes == 2 {
             let (per_length, per_speed) = (1.0 / scales.length_m, 1.0 / scales.speed_m_s);
             let x = self.layout.position(0, at(0), centre);
             out.numbers(&[(x - centre) * per_length, at(1) * per_length]);
@@ -200,7 +214,7 @@ impl Stage {
         draws: Option<&mut Draws>,
     ) {
         let place = self.start(robot, draws);
-        let axes = Self::axes(self.dimensions);
+        let axes = self.sizes.stage;
         for axis in 0..axes {
             rows.state[axis][lane] = Number::of(place[axis]);
             rows.state[axes + axis][lane] = Number::of(0.0);
@@ -224,16 +238,12 @@ impl Stage {
 
     /// A random place within the limits, around a robot.
     fn somewhere(&self, limits: &Limits, robot: [f64; 3], draws: &mut Draws) -> [f64; 4] {
-        let [x, _, heading] = robot;
         let along = draws.uniform(-limits.reach_m, limits.reach_m);
         let height = draws.uniform(limits.lowest_m, limits.highest_m);
-        if self.dimensions == 2 {
-            return [x + along, height, 0.0, 0.0];
-        }
         let aside = draws.uniform(-limits.lateral_reach_m, limits.lateral_reach_m);
-        let yaw = heading + draws.uniform(-limits.yaw_reach_rad, limits.yaw_reach_rad);
+        let turn = draws.uniform(-limits.yaw_reach_rad, limits.yaw_reach_rad);
         let [x, z] = beside(robot, along, aside);
-        [x, height, z, yaw]
+        [x, height, z, robot[2] + turn]
     }
 
     /// See [`super::Actuator::command`]. Values beyond [−1, 1] are clipped; yaw is taken on the branch where the stage
@@ -246,27 +256,22 @@ impl Stage {
         action: &[f64],
     ) {
         let Some(limits) = self.limits() else { return };
-        let components = self.components();
         let value = |k: usize| action.get(k).map_or(0.0, |a| a.clamp(-1.0, 1.0));
-        let of = |component| components.iter().position(|c| *c == component).map_or(0.0, value);
+        let of = |component| self.components().position(|c| c == component).map_or(0.0, value);
         let unit = |component| 0.5 * (of(component) + 1.0);
         let along = of(Component::Along) * limits.reach_m;
+        let aside = of(Component::Aside) * limits.lateral_reach_m;
+        let [x, z] = beside(robot, along, aside);
         let height =
             limits.lowest_m + unit(Component::Height) * (limits.highest_m - limits.lowest_m);
-        let speed = unit(Component::Speed) * limits.speed_m_s;
-        let mut set = |row: usize, target: f64| rows.target[row][lane] = Number::of(target);
-        if self.dimensions == 2 {
-            set(0, robot[0] + along);
-        } else {
-            let [x, z] = beside(robot, along, of(Component::Aside) * limits.lateral_reach_m);
-            let yaw = robot[2] + of(Component::Yaw) * limits.yaw_reach_rad;
-            let turns = ((rows.state[3][lane].f64() - yaw) / TAU).round();
-            set(0, x);
-            set(2, z);
-            set(3, yaw + turns * TAU);
+        let yaw = robot[2] + of(Component::Yaw) * limits.yaw_reach_rad;
+        let is_at = self.place_in(|row| rows.state[row][lane].f64());
+        let turns = ((is_at[YAW] - yaw) / TAU).round();
+        let (place, speed) = ([x, height, z, yaw + turns * TAU], unit(Component::Speed));
+        for axis in 0..self.sizes.stage {
+            rows.target[axis][lane] = Number::of(place[axis]);
         }
-        set(1, height);
-        set(Self::axes(self.dimensions), speed);
+        rows.target[self.sizes.stage][lane] = Number::of(speed * limits.speed_m_s);
         for (k, row) in rows.action.iter_mut().enumerate() {
             row[lane] = Number::of(value(k));
         }
@@ -280,23 +285,9 @@ impl Stage {
         rows: ActuatorRows<'_, I::Row>,
         clock: Clock<'_, I>,
     ) {
-        if D::AXES == 2 {
-            self.advance_axes::<2, I>(isa, rows, clock);
-        } else {
-            self.advance_axes::<4, I>(isa, rows, clock);
-        }
-    }
-
-    #[inline(always)]
-    fn advance_axes<const AXES: usize, I: Isa>(
-        &self,
-        isa: I,
-        rows: ActuatorRows<'_, I::Row>,
-        clock: Clock<'_, I>,
-    ) {
-        let (place, speed) = self.path.advance::<AXES, I>(isa, &rows, clock);
-        for axis in 0..AXES {
-            for (row, value) in [(axis, place[axis]), (AXES + axis, speed[axis])] {
+        let (place, speed) = self.path.advance::<D, I>(isa, &rows, clock);
+        for axis in 0..D::STAGE {
+            for (row, value) in [(axis, place[axis]), (D::STAGE + axis, speed[axis])] {
                 let row = &mut rows.state[row];
                 isa.store(I::F::select(clock.running, value, isa.load(row)), row);
             }

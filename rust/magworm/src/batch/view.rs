@@ -1,7 +1,7 @@
 //! Looking at one environment of a batch, whatever the width of its block.
 
 use super::wrenches::magnet_wrenches;
-use crate::actuator::{Actuator, Stage, states};
+use crate::actuator::{Actuator, states};
 use crate::lanes::{Dimensions, Number, Row};
 use crate::model::{Model, Robot};
 use crate::observe;
@@ -121,7 +121,7 @@ impl View<'_> {
     pub fn drive_velocity(&self) -> Vec<f64> {
         let state = self.block.actuators(self.lane);
         if state.is_empty() {
-            return vec![0.0; Stage::axes(self.model.dimensions())];
+            return vec![0.0; self.model.sizes().stage];
         }
         let velocity = |(actuator, state): (&Actuator, _)| actuator.velocity(state);
         states(&self.model.program.actuators, &state).flat_map(velocity).collect()

@@ -57,6 +57,11 @@ impl Dimensions {
         self.axes + self.products
     }
 
+    /// Axes of a stage that it turns about.
+    pub const fn yaws(&self) -> usize {
+        self.stage - self.axes
+    }
+
     /// Ways in which a rod bends, and tangents of a surface.
     pub const fn tangents(&self) -> usize {
         self.axes - 1
