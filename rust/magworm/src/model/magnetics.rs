@@ -1,6 +1,7 @@
 //! Compiled wrench of the drive magnets on the body magnets.
 
 use super::{Mesh, MeshMagnet};
+use crate::lanes::Dimensions;
 use crate::magnetic::{
     self, Cuboid, ObliquePair, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair,
 };
@@ -14,7 +15,7 @@ pub struct Magnetics {
     pub pairs: Vec<Vec<MagneticPair>>,
     /// The models that pairs name: one for all pairs that are alike.
     pub models: Vec<PairModel>,
-    /// 1 for components that act, 0 for those switched off: (F_x, F_y, T_z, …) in the plane,
+    /// 1 for components that act, 0 for those switched off: (F_x, F_y, T_z) in the plane, where those beyond do not count,
     /// (F_x, F_y, F_z, T_x, T_y, T_z) in space.
     pub terms: [f64; 6],
     /// |Br| of a drive magnet [T].
@@ -105,12 +106,10 @@ impl PairModel {
 
 /// 1 for each component of a wrench that acts, else 0.
 fn terms(scene: &Scene) -> [f64; 6] {
-    let terms = &scene.magnetic_terms;
-    let (along, up, turn) = (terms.horizontal_force, terms.vertical_force, terms.torque);
-    let acts = match scene.dimensions {
-        2 => [along, up, turn, false, false, false],
-        _ => [along, up, along, turn, turn, turn],
-    };
+    let (terms, axes) = (&scene.magnetic_terms, Dimensions::new(scene.dimensions).axes);
+    let forces = [terms.horizontal_force, terms.vertical_force, terms.horizontal_force];
+    let mut acts = [terms.torque; 6];
+    acts[..axes].copy_from_slice(&forces[..axes]);
     acts.map(|on| if on { 1.0 } else { 0.0 })
 }
 

@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use crate::lanes::math::{atan2, sin_cos};
-use crate::lanes::{Isa, Number, Row};
+use crate::lanes::{Dimensions, Isa, Number, Row};
 use crate::model::{Anchor, Model};
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -48,7 +48,7 @@ impl<R: Row> Block<R> {
             Anchor::Rigid { body, side } => {
                 let arm = f64::from(side) * model.mesh.magnets[body].half_length_m;
                 let dof = model.coordinates.bodies[body];
-                self.vector(&self.q, dof, axes, lane) + self.tangent(model, body, lane) * arm
+                self.vector(&self.q, dof, axes, lane) + self.rotation(model, body, lane).0 * arm
             }
             Anchor::Fixed => self.vector(&self.fixed_position, axes * node, axes, lane),
         }
@@ -58,39 +58,46 @@ impl<R: Row> Block<R> {
     pub fn magnet_pose(&self, model: &Model, magnet: usize, lane: usize) -> Pose {
         let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
         let position_m = self.vector(&self.q, dof, axes, lane);
-        let orientation = if axes == 2 {
-            about_z(self.q[dof + 2][lane].f64())
-        } else {
-            let element = model.mesh.magnets[magnet].element;
-            let up = self.vector(&self.director, 6 * element, 3, lane);
-            let tangent = self.vector(&self.director, 6 * element + 3, 3, lane);
-            let matrix = Matrix3::from_columns(&[tangent, up, tangent.cross(&up)]);
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
-        };
-        Pose { position_m, orientation }
+        Pose { position_m, orientation: self.rotation(model, magnet, lane).1 }
+    }
+
+    /// Tangent of a body, and the rotation from its tangent, up and side to x, y, z, in one lane.
+    fn rotation(
+        &self,
+        model: &Model,
+        body: usize,
+        lane: usize,
+    ) -> (Vector3<f64>, UnitQuaternion<f64>) {
+        if model.dimensions() == 2 {
+            let angle_rad = self.q[model.coordinates.bodies[body] + 2][lane].f64();
+            let (sin, cos) = sin_cos(angle_rad);
+            return (Vector3::new(cos, sin, 0.0), about_z(angle_rad));
+        }
+        let up_row = 6 * model.mesh.magnets[body].element;
+        let [up, tangent] =
+            [up_row, up_row + 3].map(|row| self.vector(&self.director, row, 3, lane));
+        let matrix = Matrix3::from_columns(&[tangent, up, tangent.cross(&up)]);
+        let rotation = Rotation3::from_matrix_unchecked(matrix);
+        (tangent, UnitQuaternion::from_rotation_matrix(&rotation))
     }
 
     /// Velocity of a body magnet in one lane.
     pub fn magnet_velocity(&self, model: &Model, magnet: usize, lane: usize) -> Twist {
-        let (dof, axes) = (model.coordinates.bodies[magnet], model.dimensions());
-        let angular_rad_s = if axes == 2 {
-            Vector3::z() * self.v[dof + 2][lane].f64()
-        } else {
-            self.vector(&self.v, dof + 3, 3, lane)
-        };
+        let Dimensions { axes, rotations, .. } = model.sizes();
+        let dof = model.coordinates.bodies[magnet];
+        let mut angular_rad_s = Vector3::zeros();
+        for k in 0..rotations {
+            // In the plane about z alone.
+            angular_rad_s[3 - rotations + k] = self.v[dof + axes + k][lane].f64();
+        }
         Twist { linear_m_s: self.vector(&self.v, dof, axes, lane), angular_rad_s }
     }
 
-    /// Position x, y [m] and angle [rad] of a body magnet in the plane x–y in one lane. In the plane the angle
-    /// counts whole turns; in space it is that of its tangent.
+    /// Position x, y [m] of a body magnet in one lane, and its unknown of rotation about z [rad]: its angle in the plane, whole
+    /// turns counted; in space the integral of its rate.
     pub fn planar_pose(&self, model: &Model, magnet: usize, lane: usize) -> [f64; 3] {
-        let dof = model.coordinates.bodies[magnet];
-        let angle = if model.dimensions() == 2 {
-            self.q[dof + 2][lane].f64()
-        } else {
-            self.magnet_pose(model, magnet, lane).pitch_rad()
-        };
-        [self.q[dof][lane].f64(), self.q[dof + 1][lane].f64(), angle]
+        let (dof, body) = (model.coordinates.bodies[magnet], model.sizes().body());
+        [dof, dof + 1, dof + body - 1].map(|row| self.q[row][lane].f64())
     }
 
     /// Velocity of a body magnet in the plane x–y in one lane [m/s, m/s, rad/s].
@@ -149,14 +156,6 @@ impl<R: Row> Block<R> {
         }
         let places = bodies.iter().map(|&dof| self.q[dof + axis][lane].f64());
         places.sum::<f64>() / bodies.len() as f64
-    }
-
-    fn tangent(&self, model: &Model, body: usize, lane: usize) -> Vector3<f64> {
-        if model.dimensions() == 2 {
-            let (sin, cos) = sin_cos(self.q[model.coordinates.bodies[body] + 2][lane].f64());
-            return Vector3::new(cos, sin, 0.0);
-        }
-        self.vector(&self.director, 6 * model.mesh.magnets[body].element + 3, 3, lane)
     }
 
     fn vector(&self, rows: &[R], first: usize, axes: usize, lane: usize) -> Vector3<f64> {
