@@ -96,8 +96,8 @@ impl Scene {
 
     #[getter]
     fn removed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let magnets = self.model.mesh.magnets.iter().enumerate();
-        PyTuple::new(py, magnets.filter(|(_, m)| !m.present).map(|(j, _)| j).collect::<Vec<_>>())
+        let magnets = self.model.present().into_iter().enumerate();
+        PyTuple::new(py, magnets.filter(|(_, is_in)| !is_in).map(|(j, _)| j).collect::<Vec<_>>())
     }
 
     #[getter]
@@ -156,18 +156,19 @@ impl Scene {
         dict.set_item("element_thickness_m", elements)?;
         let widths: Vec<f64> = mesh.elements.iter().map(|e| e.width_m).collect();
         dict.set_item("element_width_m", widths)?;
-        let sizes: Vec<[f64; 3]> = mesh.magnets.iter().map(|m| m.size_m).collect();
+        let magnets = &self.model.magnets[..self.model.magnets()];
+        let sizes: Vec<[f64; 3]> = magnets.iter().map(|m| m.size_m).collect();
         dict.set_item("magnet_size_m", sizes)?;
         let offsets: Vec<[f64; 3]> =
-            mesh.magnets.iter().map(|m| m.offset_m.unwrap_or_default()).collect();
+            magnets.iter().map(|m| m.offset_m.unwrap_or_default()).collect();
         dict.set_item("magnet_offset_m", offsets)?;
-        let directions: Vec<[f64; 3]> = mesh
-            .magnets
+        let polarity: Vec<f64> = magnets.iter().map(|m| m.remanence_t.signum()).collect();
+        let directions: Vec<[f64; 3]> = magnets
             .iter()
-            .map(|m| m.direction.vector().map(|part| part * m.polarity))
+            .zip(&polarity)
+            .map(|(m, polarity)| m.direction.vector().map(|part| part * polarity))
             .collect();
         dict.set_item("magnet_direction", directions)?;
-        let polarity: Vec<f64> = mesh.magnets.iter().map(|m| m.polarity).collect();
         dict.set_item("polarity", polarity)?;
         let drive = scene.drive.as_ref().map_or((0.0, 0.0), |d| (d.length_m, d.height_m));
         dict.set_item("drive_size_m", drive)?;

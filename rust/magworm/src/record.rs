@@ -78,7 +78,7 @@ where
     Block<R>: Steps,
 {
     let mut block = Block::<R>::new(model);
-    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let present = model.present();
     let factors = [1.0; Model::PARAMETERS.len()];
     reset(model, &mut block, 0, scene_start(model), &factors, &present, Draws::new(0, 0));
     let (mut recording, sizes) =

@@ -54,8 +54,8 @@ fn rest<R: Row>(model: &Model, block: &mut Block<R>, lane: usize) {
     for row in block.factors.iter_mut() {
         row[lane] = R::Number::of(1.0);
     }
-    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        block.present[body][lane] = R::Number::of(f64::from(u8::from(magnet.present)));
+    for (row, is_in) in block.present.iter_mut().zip(model.present()) {
+        row[lane] = R::Number::of(f64::from(u8::from(is_in)));
     }
     lay(model, block, lane, scene_start(model));
     apply_parameters(model, block, lane);
@@ -127,7 +127,7 @@ fn put<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, laid: &impl Lai
         }
     }
     for (body, &dof) in model.coordinates.bodies.iter().enumerate() {
-        let element = model.mesh.magnets[body].element;
+        let element = model.bodies[body].element;
         let middle = laid.middle(element);
         for axis in 0..axes {
             block.q[dof + axis][lane] = R::Number::of(middle[axis]);
@@ -154,18 +154,19 @@ pub fn apply_parameters<R: Row>(model: &Model, block: &mut Block<R>, lane: usize
     }
     let present = &block.present;
     let add = |rows: &mut [R], part: &MassPart| {
-        let is_in = part.body.is_some_and(|body| present[body][lane] == R::Number::of(1.0));
+        let is_in = part.cavity.is_some_and(|magnet| present[magnet][lane] == R::Number::of(1.0));
         let cavity = if is_in { part.magnet } else { part.fill };
         let mass = &mut rows[part.row][lane];
         *mass = R::Number::of(mass.f64() + mass_factor * (part.rubber + cavity));
     };
-    model.inertia.iter().for_each(|part| add(&mut block.mass, part));
-    let moments = model.off_centre.iter().flat_map(|body| &body.parts);
+    let inertia = model.bodies.iter().flat_map(|body| &body.inertia);
+    model.rubber.iter().chain(inertia).for_each(|part| add(&mut block.mass, part));
+    let moments = model.off_centre().flat_map(|body| &body.parts);
     moments.for_each(|part| add(&mut block.off_centre, part));
     let remanence_factor = factor(block, Parameter::Remanence);
-    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-        let remanence_t = remanence_factor * magnet.remanence_t * magnet.polarity;
-        let is_in = block.present[body][lane].f64();
-        block.remanence[body][lane] = R::Number::of(remanence_t * is_in);
+    for (row, magnet) in model.magnets[..model.magnets()].iter().enumerate() {
+        let is_in = block.present[row][lane].f64();
+        let remanence_t = remanence_factor * magnet.remanence_t * is_in;
+        block.remanence[row][lane] = R::Number::of(remanence_t);
     }
 }

@@ -96,7 +96,7 @@ where
 /// As many robots as a block has lanes at the scene's start pose.
 fn start<R: Row>(model: &Model) -> Block<R> {
     let mut block = Block::new(model);
-    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let present = model.present();
     for lane in 0..R::LANES {
         let draws = Draws::new(lane as u64, 0);
         let factors = [1.0; Model::PARAMETERS.len()];

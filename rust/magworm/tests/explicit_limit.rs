@@ -58,7 +58,7 @@ fn growth(scene: &Scene, step_s: f64) -> f64 {
     let mut block = Block::<[f64; 1]>::new(&model);
     let mut factors = [1.0; Model::PARAMETERS.len()];
     factors[Parameter::Stiffness as usize] = SOFTER;
-    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let present = model.present();
     let start = scene_start(&model);
     reset(&model, &mut block, 0, start, &factors, &present, Draws::new(0, 0));
     let mut draws = Draws::new(1, 0);

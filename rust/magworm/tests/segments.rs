@@ -70,13 +70,13 @@ fn segments_are_meshed_one_after_another() {
     for (arc_m, millimetres) in mesh.arc_m.iter().zip(expected) {
         assert!((arc_m - 1e-3 * millimetres).abs() < 1e-15, "{arc_m} m");
     }
-    let magnets: Vec<usize> = mesh.magnets.iter().map(|magnet| magnet.element).collect();
-    assert_eq!(magnets, [1, 8, 13]);
+    let bodies: Vec<usize> = model.bodies.iter().map(|body| body.element).collect();
+    assert_eq!(bodies, [1, 8, 13]);
     let widths: Vec<f64> = mesh.elements.iter().map(|element| element.width_m).collect();
     assert_eq!(widths[..4], [0.011; 4]);
     assert_eq!((widths[6], widths[11], widths[13]), (0.014, 0.009, 0.012));
     assert_eq!(model.contacts.len(), 6);
-    assert_eq!(model.mesh.magnets[1].polarity, -1.0);
+    assert_eq!(model.magnets[1].remanence_t.signum(), -1.0);
     assert_eq!(model.thickness_m, 0.008);
 }
 
@@ -86,8 +86,8 @@ fn a_magnet_moves_within_its_foot_and_the_foot_stays() {
     let corners = |along: &str| {
         let scene = mixed("body.segment[2].magnet.along_m", Some(along)).expect("a scene");
         let mesh = Model::compile(&scene).expect("a model").mesh;
-        let magnet = mesh.magnets[1];
-        let middle_m = 0.5 * (mesh.arc_m[magnet.element] + mesh.arc_m[magnet.element + 1]);
+        let body = mesh.bodies[1];
+        let middle_m = 0.5 * (mesh.arc_m[body.element] + mesh.arc_m[body.element + 1]);
         let places = mesh.contact_points.iter().filter_map(|point| match point.frame {
             magworm::internals::Frame::Body(1) => Some(middle_m + point.place_m[0]),
             _ => None,

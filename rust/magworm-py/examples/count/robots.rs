@@ -18,7 +18,7 @@ pub fn action(robot: usize, control_step: u64) -> [f64; 5] {
 /// Robots at the start pose of their scene, from robot `first` on; so many are different, and more lanes repeat them.
 pub fn start<R: Row>(model: &Model, first: usize, different: usize) -> Block<R> {
     let mut block = Block::new(model);
-    let present: Vec<bool> = model.mesh.magnets.iter().map(|magnet| magnet.present).collect();
+    let present = model.present();
     let factors = [1.0; Model::PARAMETERS.len()];
     for lane in 0..R::LANES {
         let draws = Draws::new(((first + lane) % different) as u64, 0);

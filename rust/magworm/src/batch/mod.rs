@@ -118,7 +118,7 @@ impl Batch {
                 Blocks::ScalarSingle(new_blocks(&model, count, &pool, on)?)
             }
         };
-        let present: Vec<bool> = model.mesh.magnets.iter().map(|m| m.present).collect();
+        let present = model.present();
         Ok(Self {
             factors: vec![1.0; count * Model::PARAMETERS.len()],
             present: present.repeat(count),

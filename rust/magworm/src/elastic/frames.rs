@@ -88,7 +88,7 @@ fn rotate_magnet<I: Isa>(
     [body, dof]: [usize; 2],
     mask: I::M,
 ) {
-    let element = model.mesh.magnets[body].element;
+    let element = model.bodies[body].element;
     let rate = Vector::load(isa, &block.end_velocity[dof + 3..]);
     let momentum = angular_momentum(isa, block, body, dof, rate);
     let half = rate * isa.splat(0.5 * model.step_s);

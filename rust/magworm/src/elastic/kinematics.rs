@@ -35,7 +35,7 @@ fn nodes<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
             }
             Anchor::Rigid { body, side } => {
                 let dof = model.coordinates.bodies[body];
-                let arm = isa.splat(f64::from(side) * model.mesh.magnets[body].half_length_m);
+                let arm = isa.splat(f64::from(side) * model.bodies[body].half_length_m);
                 let axis = D::Vector::load(isa, &frame[axes * body..]);
                 let place = D::Vector::load(isa, &q[dof..]) + axis * arm;
                 place.store(isa, &mut places[D::AXES * node..]);

@@ -97,9 +97,9 @@ impl Rod for Space {
     #[inline(always)]
     fn place_axes<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         let (director, frame) = (&*block.director, &mut *block.frame);
-        for (body, magnet) in model.mesh.magnets.iter().enumerate() {
-            let up = Vec3::load(isa, &director[6 * magnet.element..]);
-            let t = Vector::load(isa, &director[6 * magnet.element + 3..]);
+        for (body, rigid) in model.bodies.iter().enumerate() {
+            let up = Vec3::load(isa, &director[6 * rigid.element..]);
+            let t = Vector::load(isa, &director[6 * rigid.element + 3..]);
             let axes = &mut frame[9 * body..][..9];
             t.store(isa, axes);
             up.store(isa, &mut axes[3..]);
@@ -125,7 +125,7 @@ impl Rod for Space {
         block: &Block<I::Row>,
         body: usize,
     ) -> [Vec3<I::F>; 3] {
-        let frame = &block.director[6 * model.mesh.magnets[body].element..][..6];
+        let frame = &block.director[6 * model.bodies[body].element..][..6];
         let (up, tangent) = (Vec3::load(isa, frame), Vec3::load(isa, &frame[3..]));
         [tangent, up, tangent.cross(up)]
     }

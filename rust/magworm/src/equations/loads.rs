@@ -5,7 +5,7 @@ use crate::actuator::{Actuator, Layout, states};
 use crate::elastic::Rod;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Components, Dim, Isa, Mask, Real, Space, Vec3, Vector};
-use crate::model::{Magnetics, Model, PairModel};
+use crate::model::{Carrier, Magnetics, Model, PairModel, RigidBody};
 use crate::state::Block;
 
 /// Components of a wrench in space.
@@ -38,21 +38,25 @@ pub fn magnets<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         None => true,
     };
     let sources = Sources::of::<D>(isa, model, block);
-    for body in 0..model.magnets() {
-        let dof = model.coordinates.bodies[body];
+    for (body, RigidBody { dof, magnets, .. }) in model.bodies.iter().enumerate() {
         let mut wrench = [isa.splat(0.0); WRENCH];
         if let (true, Some(magnetics), Some(sources)) = (computes, &program.magnetics, &sources) {
-            if D::AXES == 2 {
-                planar_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
-            } else {
-                spatial_wrench(isa, model, magnetics, sources, block, body, &mut wrench);
+            for magnet in magnets.clone() {
+                let own = if D::AXES == 2 {
+                    planar_wrench(isa, model, magnetics, sources, block, [body, magnet])
+                } else {
+                    spatial_wrench(isa, model, magnetics, sources, block, [body, magnet])
+                };
+                (0..D::BODY).for_each(|k| wrench[k] = wrench[k] + own[k]);
             }
         }
         if let Some(due) = due {
             hold::hold::<D, I>(isa, block, body, due, &mut wrench);
         }
         if program.uniform_field.is_some() {
-            uniform_torque::<D, I>(isa, model, block, body, &mut wrench);
+            for magnet in magnets.clone() {
+                uniform_torque::<D, I>(isa, model, block, [body, magnet], &mut wrench);
+            }
         }
         let dt = model.step_s;
         for k in 0..D::BODY {
@@ -96,21 +100,21 @@ fn uniform_torque<D: Rod, I: Isa>(
     isa: I,
     model: &Model,
     block: &Block<I::Row>,
-    body: usize,
+    [body, magnet]: [usize; 2],
     wrench: &mut [I::F; WRENCH],
 ) {
     let Some(field) = &model.program.uniform_field else { return };
-    let moment = model.mesh.magnets[body].direction.in_space(&D::axes_before(isa, block, body));
+    let moment = model.magnets[magnet].direction.in_space(&D::axes_before(isa, block, body));
     let field_t = Vector(field.field_t.map(|component| isa.splat(component)));
-    let remanence = isa.load(&block.remanence[body]);
-    let torque = field.magnets[body].torque(field_t, moment, remanence);
+    let remanence = isa.load(&block.remanence[magnet]);
+    let torque = field.magnets[magnet].torque(field_t, moment, remanence);
     for k in 0..D::ROTATIONS {
         // In the plane about z alone.
         wrench[D::AXES + k] = wrench[D::AXES + k] + torque[3 - D::ROTATIONS + k];
     }
 }
 
-/// (F_x, F_y, T_z) of all drive magnets, about the middle of the body's element.
+/// (F_x, F_y, T_z) of all drive magnets on a magnet of a body, about the body's middle.
 #[inline(always)]
 fn planar_wrench<I: Isa>(
     isa: I,
@@ -118,10 +122,10 @@ fn planar_wrench<I: Isa>(
     magnetics: &Magnetics,
     sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
-    body: usize,
-    total: &mut [I::F; WRENCH],
-) {
-    let (magnet, dof) = (&model.mesh.magnets[body], model.coordinates.bodies[body]);
+    [body, target]: [usize; 2],
+) -> [I::F; WRENCH] {
+    let (magnet, dof) = (&model.magnets[target], model.bodies[body].dof);
+    let mut total = [isa.splat(0.0); WRENCH];
     let (mut x, mut y) = (isa.load(&block.q[dof]), isa.load(&block.q[dof + 1]));
     let cos = isa.load(&block.frame[2 * body]);
     let sin = isa.load(&block.frame[2 * body + 1]);
@@ -130,10 +134,12 @@ fn planar_wrench<I: Isa>(
         (x, y) = (x + arm[0], y + arm[1]);
     }
     let Sources { layout, robot, stage: Vector([stage_x, stage_y, _]), .. } = *sources;
-    let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
-    for pair in &magnetics.pairs[body] {
-        let dx = x - layout.position(pair.source, stage_x, robot);
-        let strength = remanence * layout.polarity[pair.source];
+    let remanence = isa.load(&block.remanence[target]);
+    for pair in &magnetics.pairs[target] {
+        let source = &model.magnets[pair.source];
+        let Carrier::Actuator { magnet: which, .. } = source.on else { continue };
+        let dx = x - layout.position(which, stage_x, robot);
+        let strength = remanence * source.remanence_t;
         let wrench = match &magnetics.models[pair.model] {
             PairModel::Cuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
             PairModel::ObliqueCuboid(pair) => pair.wrench(dx, y - stage_y, cos, sin, strength),
@@ -151,10 +157,11 @@ fn planar_wrench<I: Isa>(
     if let Some([x, y]) = arm {
         total[2] = total[2] + (x * total[1] - y * total[0]);
     }
+    total
 }
 
-/// Force and torque of all drive magnets about the middle of the body's element; they stand turned about the vertical by the
-/// stage's yaw.
+/// Force and torque of all drive magnets on a magnet of a body, about the body's middle; they stand turned about the vertical
+/// by the stage's yaw.
 #[inline(always)]
 fn spatial_wrench<I: Isa>(
     isa: I,
@@ -162,12 +169,12 @@ fn spatial_wrench<I: Isa>(
     magnetics: &Magnetics,
     sources: &Sources<'_, I>,
     block: &mut Block<I::Row>,
-    body: usize,
-    total: &mut [I::F; WRENCH],
-) {
+    [body, target]: [usize; 2],
+) -> [I::F; WRENCH] {
     let Sources { layout, robot, stage, yaw: (sin, cos) } = *sources;
-    let (magnet, dof) = (&model.mesh.magnets[body], model.coordinates.bodies[body]);
-    let remanence = isa.load(&block.remanence[body]) * magnetics.drive_remanence_t;
+    let (magnet, dof) = (&model.magnets[target], model.bodies[body].dof);
+    let mut total = [isa.splat(0.0); WRENCH];
+    let remanence = isa.load(&block.remanence[target]);
     let frame = Space::axes_before(isa, block, body);
     let arm = magnet
         .offset_m
@@ -177,8 +184,10 @@ fn spatial_wrench<I: Isa>(
         place = place + arm;
     }
     let axes = frame.map(|axis| turned(axis, cos, -sin));
-    for pair in &magnetics.pairs[body] {
-        let [x, z] = layout.place(pair.source, stage[0], stage[2], robot, sin, cos);
+    for pair in &magnetics.pairs[target] {
+        let source = &model.magnets[pair.source];
+        let Carrier::Actuator { magnet: which, .. } = source.on else { continue };
+        let [x, z] = layout.place(which, stage[0], stage[2], robot, sin, cos);
         let offset = turned(place - Vector([x, stage[1], z]), cos, -sin);
         let wrench = match &magnetics.models[pair.model] {
             PairModel::SpatialCuboid(pair) => pair.wrench(offset.0, axes.map(|axis| axis.0)),
@@ -188,7 +197,7 @@ fn spatial_wrench<I: Isa>(
             PairModel::Cuboid(_) | PairModel::ObliqueCuboid(_) | PairModel::Dipole(_) => continue,
         };
         let [fx, fy, fz, tx, ty, tz] = wrench;
-        let strength = remanence * layout.polarity[pair.source];
+        let strength = remanence * source.remanence_t;
         let force = turned(Vector([fx, fy, fz]), cos, sin);
         let torque = turned(Vector([tx, ty, tz]), cos, sin);
         for axis in 0..3 {
@@ -201,6 +210,7 @@ fn spatial_wrench<I: Isa>(
         let moment = arm.cross(Vector([total[0], total[1], total[2]]));
         (0..3).for_each(|k| total[3 + k] = total[3 + k] + moment[k]);
     }
+    total
 }
 
 /// A vector turned about the vertical, anticlockwise seen from above: x goes towards −z.

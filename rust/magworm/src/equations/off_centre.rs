@@ -20,7 +20,7 @@ const PRODUCTS: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 /// Adds what S brings to both sides, and in space the products of inertia.
 #[inline(always)]
 pub fn inertia<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    for body in &model.off_centre {
+    for body in model.off_centre() {
         let axes = D::axes_before(isa, block, body.body);
         let s = first_moment::<D, I>(isa, block, body, &axes);
         let velocity = vector::<D, I>(isa, &block.v, body.dof);
@@ -46,7 +46,7 @@ pub fn gravity<D: Rod, I: Isa>(
     gravity_m_s2: [f64; 3],
 ) {
     let pull = Vector(gravity_m_s2.map(|g| isa.splat(g * model.step_s)));
-    for body in &model.off_centre {
+    for body in model.off_centre() {
         let axes = D::axes_before(isa, block, body.body);
         let torque = first_moment::<D, I>(isa, block, body, &axes).cross(pull);
         rotations::<D>(body).for_each(|(dof, k)| add(isa, torque[k], &mut block.rhs[dof]));
@@ -57,7 +57,7 @@ pub fn gravity<D: Rod, I: Isa>(
 /// already those at its end, as if X had moved straight.
 #[inline(always)]
 pub fn carry<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, go: I::M) {
-    for body in &model.off_centre {
+    for body in model.off_centre() {
         let before = D::axes_before(isa, block, body.body);
         let after = D::axes_after(isa, model, block, body.body);
         let share = one_over(isa.load(&block.mass[body.dof]));

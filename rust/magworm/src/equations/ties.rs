@@ -21,7 +21,7 @@ pub fn constrain<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row
 fn follow<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, tie: &Tie) {
     let Anchor::Free { dof: node } = model.coordinates.anchors[tie.node] else { return };
     let body = model.coordinates.bodies[tie.body];
-    let reach = f64::from(tie.side) * model.mesh.magnets[tie.body].half_length_m;
+    let reach = f64::from(tie.side) * model.bodies[tie.body].half_length_m;
     let axes = D::Frame::<I::F>::COUNT;
     let arm = D::Vector::load(isa, &block.frame[axes * tie.body..]) * isa.splat(reach);
     for k in 0..D::AXES {

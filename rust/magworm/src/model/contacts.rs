@@ -2,7 +2,7 @@
 
 use super::coordinates::{Anchor, Coordinates};
 use crate::lanes::chain::Chain;
-use crate::scene::{ContactPoint, Frame, Ground, Mesh, MeshMagnet, Scene};
+use crate::scene::{ContactPoint, Frame, Ground, Mesh, Scene};
 
 /// Shape of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,7 +112,7 @@ fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
 
 /// Mass of all magnets: one product for those that are alike.
 fn magnets_kg(mesh: &Mesh) -> f64 {
-    let mut left_kg: Vec<f64> = mesh.magnets.iter().map(MeshMagnet::mass_kg).collect();
+    let mut left_kg: Vec<f64> = mesh.magnets.iter().map(|held| held.magnet.mass_kg()).collect();
     let mut total_kg = 0.0;
     while let Some(&mass_kg) = left_kg.first() {
         let before = left_kg.len();

@@ -84,7 +84,7 @@ impl Coordinates {
             anchors: Vec::new(),
             bodies: Vec::new(),
             twists: Vec::new(),
-            rigid: mesh.elements.iter().map(|element| element.magnet).collect(),
+            rigid: mesh.elements.iter().map(|element| element.body).collect(),
             ties: Vec::new(),
         };
         let ends = magnet_ends(mesh);
@@ -118,7 +118,7 @@ impl Coordinates {
 
     fn number_twist(&mut self, mesh: &Mesh, element: usize) {
         let clamped = element + 1 < mesh.fixed_nodes;
-        let twists = mesh.elements[element].magnet.is_none() && !clamped;
+        let twists = mesh.elements[element].body.is_none() && !clamped;
         let twists = twists && self.sizes().twists() > 0;
         let dof = twists.then(|| self.take(1));
         self.twists.push(dof);
@@ -161,9 +161,9 @@ impl Coordinates {
 /// For each node the magnet it ends and at which side. Magnets never share a node (validated).
 fn magnet_ends(mesh: &Mesh) -> Vec<Option<(usize, i8)>> {
     let mut ends = vec![None; mesh.arc_m.len()];
-    for (body, magnet) in mesh.magnets.iter().enumerate() {
-        ends[magnet.element] = Some((body, -1));
-        ends[magnet.element + 1] = Some((body, 1));
+    for (body, rigid) in mesh.bodies.iter().enumerate() {
+        ends[rigid.element] = Some((body, -1));
+        ends[rigid.element + 1] = Some((body, 1));
     }
     ends
 }

@@ -1,17 +1,16 @@
-//! Masses: rubber lumped on the nodes, magnets as rigid bodies.
+//! Masses: rubber lumped on the nodes, rigid bodies with their magnets.
 //!
-//! Half of a soft element's rubber goes to each of its nodes. The rubber around a magnet goes ⅙, ⅔, ⅙
-//! to its head end, centre and tail end (Simpson), which keeps mass and moment of inertia m l²/12. In space a
-//! magnet has a moment of inertia about its tangent, up and side, and a soft element about its tangent.
+//! Half of a soft element's rubber goes to each of its nodes. The rubber of a rigid body goes ⅙, ⅔, ⅙
+//! to its head end, middle and tail end (Simpson), which keeps mass and moment of inertia m l²/12. In space a
+//! body has a moment of inertia about its tangent, up and side, and a soft element about its tangent.
 //!
 //! A magnet whose centre lies r beside the middle of its element brings a first moment m r and products of inertia
 //! −m r_k r_l about it. The cavity that it leaves in the rubber takes as much of the rubber away, so that an empty one filled
 //! with rubber brings none.
 
 use super::coordinates::{Anchor, Coordinates};
-use super::{Element, Mesh, MeshMagnet};
-use crate::scene::Scene;
-use std::ops::Range;
+use super::{Element, Mesh};
+use crate::scene::{RigidElement, Scene, SegmentMagnet};
 
 /// A contribution to the diagonal mass of one unknown, or to a moment of a body off its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +19,8 @@ pub struct MassPart {
     pub row: usize,
     /// Always there [kg or kg·m²; kg·m of a first moment].
     pub rubber: f64,
-    /// The magnet whose presence adds `magnet` and whose absence adds `fill`.
-    pub body: Option<usize>,
+    /// The body magnet whose presence adds `magnet` and whose absence adds `fill`.
+    pub cavity: Option<usize>,
     /// Of the magnet.
     pub magnet: f64,
     /// Of the rubber in an empty cavity.
@@ -42,71 +41,62 @@ pub struct OffCentre {
     pub parts: Vec<MassPart>,
 }
 
-/// The bodies whose magnets lie beside the middle of their elements.
-pub fn off_centre(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<OffCentre> {
-    let rows = coordinates.sizes().moments();
+/// The first and mixed moments of a body whose magnets lie beside the middle of its element; `row`: the first of their rows.
+pub fn off_centre(
+    scene: &Scene,
+    mesh: &Mesh,
+    coordinates: &Coordinates,
+    body: usize,
+    row: usize,
+) -> Option<OffCentre> {
+    let beside = |k: &usize| mesh.magnets[*k].magnet.offset_m() != [0.0; 3];
+    let magnets = mesh.magnets_of(body).filter(beside);
     let density_kg_m3 = scene.material.density_kg_m3;
-    let bodies = (0..mesh.magnets.len()).filter(|body| mesh.magnets[*body].offset_m.is_some());
-    bodies
-        .enumerate()
-        .map(|(place, body)| OffCentre {
-            body,
-            dof: coordinates.bodies[body],
-            row: rows * place,
-            parts: moments(
-                density_kg_m3,
-                &mesh.magnets[body],
-                body,
-                rows * place..rows * (place + 1),
-            ),
-        })
-        .collect()
+    let rows = coordinates.sizes().moments();
+    let parts: Vec<MassPart> =
+        magnets.flat_map(|k| moments(density_kg_m3, mesh, k, row).take(rows)).collect();
+    let dof = coordinates.bodies[body];
+    (!parts.is_empty()).then_some(OffCentre { body, dof, row, parts })
 }
 
-/// First moments and products of inertia of a magnet and its cavity.
+/// First moments and products of inertia of a magnet and its cavity; in the plane the first two are all.
 fn moments(
     density_kg_m3: f64,
-    magnet: &MeshMagnet,
-    body: usize,
-    rows: Range<usize>,
-) -> Vec<MassPart> {
-    let [x, y, z] = magnet.offset_m.unwrap_or_default();
+    mesh: &Mesh,
+    cavity: usize,
+    row: usize,
+) -> impl Iterator<Item = MassPart> + use<> {
+    let magnet = &mesh.magnets[cavity].magnet;
+    let [x, y, z] = magnet.offset_m();
     let (magnet_kg, cavity_kg) = (magnet.mass_kg(), density_kg_m3 * magnet.volume_m3());
-    // In the plane the first two are all.
     let arms = [x, y, z, -y * z, -z * x, -x * y];
-    let part = |(row, arm)| MassPart {
-        row,
+    arms.into_iter().enumerate().map(move |(k, arm)| MassPart {
+        row: row + k,
         rubber: -cavity_kg * arm,
-        body: Some(body),
+        cavity: Some(cavity),
         magnet: magnet_kg * arm,
         fill: cavity_kg * arm,
-    };
-    rows.zip(arms).map(part).collect()
+    })
 }
 
-/// Contributions to the mass of every unknown that has one.
-pub fn mass_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<MassPart> {
-    let density_kg_m3 = scene.material.density_kg_m3;
-    let rubber = rubber(density_kg_m3, mesh, coordinates);
-    let mut parts: Vec<MassPart> = rubber
+/// Rubber on nodes and of elements that twist: contributions to the mass of each unknown that has some.
+pub fn rubber_parts(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<MassPart> {
+    let rubber = rubber(scene.material.density_kg_m3, mesh, coordinates);
+    rubber
         .iter()
         .enumerate()
         .filter(|(_, mass)| **mass > 0.0)
-        .map(|(dof, &rubber)| MassPart { row: dof, rubber, body: None, magnet: 0.0, fill: 0.0 })
-        .collect();
-    for body in 0..mesh.magnets.len() {
-        parts.extend(body_parts(density_kg_m3, mesh, coordinates, body));
-    }
-    parts
+        .map(|(dof, &rubber)| MassPart { row: dof, rubber, cavity: None, magnet: 0.0, fill: 0.0 })
+        .collect()
 }
 
-/// Rubber on nodes and of elements that twist, for each unknown.
+/// The same for all unknowns.
 fn rubber(density_kg_m3: f64, mesh: &Mesh, coordinates: &Coordinates) -> Vec<f64> {
     let mut rubber = vec![0.0; coordinates.count];
     for (e, element) in mesh.elements.iter().enumerate() {
         let volume_m3 = mesh.volume_m3(e);
-        let share = if element.magnet.is_some() { 1.0 / 6.0 } else { 0.5 };
-        let cavity_m3 = element.magnet.map_or(0.0, |body| mesh.magnets[body].volume_m3());
+        let share = if element.body.is_some() { 1.0 / 6.0 } else { 0.5 };
+        let cavity_m3 = element.body.map_or(0.0, |body| cavities_m3(mesh, body));
         let mass_kg = share * density_kg_m3 * (volume_m3 - cavity_m3);
         add_point(&mut rubber, mesh, coordinates, e, mass_kg);
         add_point(&mut rubber, mesh, coordinates, e + 1, mass_kg);
@@ -131,7 +121,7 @@ fn add_point(
             rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg)
         }
         Anchor::Rigid { body, .. } => {
-            let arm_m = mesh.magnets[body].half_length_m;
+            let arm_m = mesh.bodies[body].half_length_m;
             let dof = coordinates.bodies[body];
             rubber[dof..dof + dimensions].iter_mut().for_each(|m| *m += mass_kg);
             // About all axes but the tangent, on which it lies: the last ones.
@@ -144,41 +134,82 @@ fn add_point(
     }
 }
 
-/// The magnet, and the part of the rubber around it that sits at its centre.
-fn body_parts(
-    density_kg_m3: f64,
+/// The magnets of a body, and the part of the rubber around them that sits in its middle.
+pub fn body_parts(
+    scene: &Scene,
     mesh: &Mesh,
     coordinates: &Coordinates,
     body: usize,
 ) -> Vec<MassPart> {
-    let (magnet, dof) = (&mesh.magnets[body], coordinates.bodies[body]);
-    let Element { thickness_m, width_m, .. } = mesh.elements[magnet.element];
-    let [length_m, height_m, depth_m] = magnet.size_m;
-    let volume_m3 = magnet.volume_m3();
-    let around_kg = density_kg_m3 * (length_m * thickness_m * width_m - volume_m3);
-    let (magnet_kg, fill_kg) = (magnet.density_kg_m3 * volume_m3, density_kg_m3 * volume_m3);
-    let part = |row, rubber, gyration_m2| MassPart {
-        row,
-        rubber,
-        body: Some(body),
-        magnet: magnet_kg * gyration_m2,
-        fill: fill_kg * gyration_m2,
+    let density_kg_m3 = scene.material.density_kg_m3;
+    let RigidElement { element, half_length_m } = mesh.bodies[body];
+    let Element { thickness_m, width_m, .. } = mesh.elements[element];
+    let volume_m3 = 2.0 * half_length_m * thickness_m * width_m;
+    let around_kg = density_kg_m3 * (volume_m3 - cavities_m3(mesh, body));
+    // The rubber's length is in its points.
+    let middle_kg = around_kg * 2.0 / 3.0;
+    let [tangent, up, side] = [(thickness_m, width_m), (width_m, 0.0), (thickness_m, 0.0)]
+        .map(|(a_m, b_m)| around_kg * gyration_m2(a_m, b_m));
+    let rubber = [middle_kg, middle_kg, middle_kg, tangent, up, side];
+    let magnets = mesh.magnets_of(body);
+    let mut parts: Vec<MassPart> = if magnets.is_empty() {
+        let empty = |(row, _)| MassPart { row, rubber: 0.0, cavity: None, magnet: 0.0, fill: 0.0 };
+        unknowns(coordinates, body).map(empty).collect()
+    } else {
+        magnets
+            .flat_map(|k| magnet_parts(density_kg_m3, mesh, k, unknowns(coordinates, body)))
+            .collect()
     };
-    // About tangent, up and side, in the plane about the last alone. The rubber's length is in its points. Squares of the radii of
-    // gyration, and of the distance of the magnet.
-    let [x, y, z] = magnet.offset_m.unwrap_or_default();
+    // It stands with the first magnet.
+    for (part, (_, k)) in parts.iter_mut().zip(unknowns(coordinates, body)) {
+        part.rubber += rubber[k];
+    }
+    parts
+}
+
+/// What a magnet and its cavity bring to each unknown of its body.
+fn magnet_parts(
+    density_kg_m3: f64,
+    mesh: &Mesh,
+    cavity: usize,
+    unknowns: impl Iterator<Item = (usize, usize)>,
+) -> impl Iterator<Item = MassPart> {
+    let magnet = &mesh.magnets[cavity].magnet;
+    let SegmentMagnet { length_m, height_m, width_m, density_kg_m3: own_kg_m3, .. } = *magnet;
+    let volume_m3 = magnet.volume_m3();
+    let (magnet_kg, fill_kg) = (own_kg_m3 * volume_m3, density_kg_m3 * volume_m3);
+    let [x, y, z] = magnet.offset_m();
+    // Squares of the radius of gyration, and of the distance of the magnet.
     let about = [
-        (gyration_m2(thickness_m, width_m), gyration_m2(height_m, depth_m), y * y + z * z),
-        (gyration_m2(width_m, 0.0), gyration_m2(length_m, depth_m), z * z + x * x),
-        (gyration_m2(thickness_m, 0.0), gyration_m2(length_m, height_m), x * x + y * y),
+        (1.0, 0.0),
+        (1.0, 0.0),
+        (1.0, 0.0),
+        (gyration_m2(height_m, width_m), y * y + z * z),
+        (gyration_m2(length_m, width_m), z * z + x * x),
+        (gyration_m2(length_m, height_m), x * x + y * y),
     ];
-    let first = dof + coordinates.dimensions;
-    let translations = (dof..first).map(|dof| part(dof, around_kg * 2.0 / 3.0, 1.0));
-    let rotations = about.into_iter().skip(3 - coordinates.sizes().rotations);
-    let rotations = rotations.enumerate().map(|(k, (rubber, magnet, beside))| {
-        part(first + k, around_kg * rubber - fill_kg * beside, magnet + beside)
-    });
-    translations.chain(rotations).collect()
+    unknowns.map(move |(row, k)| {
+        let (gyration_m2, beside_m2) = about[k];
+        MassPart {
+            row,
+            rubber: -fill_kg * beside_m2,
+            cavity: Some(cavity),
+            magnet: magnet_kg * (gyration_m2 + beside_m2),
+            fill: fill_kg * (gyration_m2 + beside_m2),
+        }
+    })
+}
+
+/// Unknowns of a body, each with its direction: along x, y, z, about tangent, up and side; in the plane about the last alone.
+fn unknowns(coordinates: &Coordinates, body: usize) -> impl Iterator<Item = (usize, usize)> {
+    let first = coordinates.bodies[body];
+    let directions = (0..coordinates.dimensions).chain(6 - coordinates.sizes().rotations..6);
+    directions.enumerate().map(move |(k, direction)| (first + k, direction))
+}
+
+/// Volume of the magnets of a body [m³].
+fn cavities_m3(mesh: &Mesh, body: usize) -> f64 {
+    mesh.magnets_of(body).map(|k| mesh.magnets[k].magnet.volume_m3()).sum()
 }
 
 /// Square of the radius of gyration of a rectangle with these edges.

@@ -1,12 +1,9 @@
 //! Compiled wrench of the drive magnets on the body magnets.
 
-use super::{Mesh, MeshMagnet};
+use super::{Carrier, Magnet};
 use crate::lanes::Dimensions;
-use crate::magnetic::{
-    self, Cuboid, ObliquePair, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair,
-};
-use crate::scene::{Direction, Drive, MagnetModel, Scene};
-use nalgebra::Vector3;
+use crate::magnetic::{ObliquePair, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair};
+use crate::scene::{Direction, MagnetModel, Scene};
 
 /// The pairs of magnets of a scene, and which components of their wrench act.
 #[derive(Clone, Debug)]
@@ -18,18 +15,16 @@ pub struct Magnetics {
     /// 1 for components that act, 0 for those switched off: (F_x, F_y, T_z) in the plane, where those beyond do not count,
     /// (F_x, F_y, F_z, T_x, T_y, T_z) in space.
     pub terms: [f64; 6],
-    /// |Br| of a drive magnet [T].
-    pub drive_remanence_t: f64,
     /// Steps for which a wrench acts; 1: it is computed in each, and nothing is held.
     pub interval: u64,
 }
 
-/// A magnet in the field of another.
+/// A magnet in the field of another; both are places in [`super::Model::magnets`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MagneticPair {
-    /// The drive magnet whose field acts.
+    /// The magnet whose field acts.
     pub source: usize,
-    /// The body magnet that it acts on.
+    /// The magnet that it acts on.
     pub target: usize,
     /// Their model.
     pub model: usize,
@@ -51,24 +46,32 @@ pub enum PairModel {
 }
 
 impl Magnetics {
-    /// Compiles the magnets of a scene.
-    pub fn new(scene: &Scene, mesh: &Mesh, drive: &Drive) -> Self {
-        let mut kinds: Vec<&MeshMagnet> = Vec::new();
-        let mut pairs = Vec::new();
-        for (target, magnet) in mesh.magnets.iter().enumerate() {
-            let known = kinds.iter().position(|kind| kind.is_alike(magnet));
-            let model = known.unwrap_or(kinds.len());
-            if known.is_none() {
-                kinds.push(magnet);
-            }
-            let sources = 0..drive.arrangement.magnets();
-            pairs.push(sources.map(|source| MagneticPair { source, target, model }).collect());
-        }
+    /// Compiles the wrenches of the drive on the body.
+    pub fn new(scene: &Scene, magnets: &[Magnet]) -> Self {
+        let (sources, targets): (Vec<usize>, Vec<usize>) =
+            (0..magnets.len()).partition(|&k| matches!(magnets[k].on, Carrier::Actuator { .. }));
+        let mut kinds: Vec<[&Magnet; 2]> = Vec::new();
+        let mut pair = |source: usize, target: usize| {
+            let pair = [source, target].map(|k| &magnets[k]);
+            let is_alike = |kind: &[&Magnet; 2]| (0..2).all(|k| kind[k].is_alike(pair[k]));
+            let model = kinds.iter().position(is_alike).unwrap_or_else(|| {
+                kinds.push(pair);
+                kinds.len() - 1
+            });
+            MagneticPair { source, target, model }
+        };
+        let on = |target: usize| sources.iter().map(move |&source| (source, target));
+        let pairs = targets
+            .iter()
+            .map(|&target| on(target).map(|(source, target)| pair(source, target)).collect())
+            .collect();
         Self {
             pairs,
-            models: kinds.iter().map(|magnet| PairModel::new(scene, drive, magnet)).collect(),
+            models: kinds
+                .iter()
+                .map(|&[source, target]| PairModel::new(scene, source, target))
+                .collect(),
             terms: terms(scene),
-            drive_remanence_t: drive.remanence_t,
             interval: scene.solver.wrench_interval as u64,
         }
     }
@@ -80,26 +83,22 @@ impl Magnetics {
 }
 
 impl PairModel {
-    /// The model of a drive magnet and a body magnet.
-    fn new(scene: &Scene, drive: &Drive, magnet: &MeshMagnet) -> Self {
-        let source =
-            Cuboid { length_m: drive.length_m, height_m: drive.height_m, width_m: drive.width_m };
-        let (body, order) = (magnet.cuboid(), scene.solver.quadrature_order);
-        let units = || [unit(source, Direction::Up), unit(body, magnet.direction)];
+    /// The model of two magnets, the source upright.
+    fn new(scene: &Scene, source: &Magnet, target: &Magnet) -> Self {
+        let (from, to, order) = (source.cuboid(), target.cuboid(), scene.solver.quadrature_order);
+        let (of_from, of_to) = (source.unit(), target.unit());
         match (scene.solver.magnet_model, scene.dimensions) {
-            (MagnetModel::Cuboid, 2) => match magnet.direction {
-                Direction::Up => Self::Cuboid(PlanarPair::new(source, body, order)),
+            (MagnetModel::Cuboid, 2) => match target.direction {
+                Direction::Up => Self::Cuboid(PlanarPair::new(from, to, order)),
                 Direction::Oblique(_) => {
-                    let [source, body] = units();
-                    Self::ObliqueCuboid(Box::new(ObliquePair::new(&source, &body, order)))
+                    Self::ObliqueCuboid(Box::new(ObliquePair::new(&of_from, &of_to, order)))
                 }
             },
-            (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(source, body)),
+            (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(from, to)),
             (MagnetModel::Cuboid, _) => {
-                let [source, body] = units();
-                Self::SpatialCuboid(SpatialPair::new(&source, &body, order))
+                Self::SpatialCuboid(SpatialPair::new(&of_from, &of_to, order))
             }
-            (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(source, body)),
+            (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(from, to)),
         }
     }
 }
@@ -111,12 +110,4 @@ fn terms(scene: &Scene) -> [f64; 6] {
     let mut acts = [terms.torque; 6];
     acts[..axes].copy_from_slice(&forces[..axes]);
     acts.map(|on| if on { 1.0 } else { 0.0 })
-}
-
-/// A cuboid of 1 T, in the order length, height, width.
-fn unit(cuboid: Cuboid, direction: Direction) -> magnetic::Magnet {
-    magnetic::Magnet {
-        size_m: Vector3::new(cuboid.length_m, cuboid.height_m, cuboid.width_m),
-        remanence_t: direction.vector().into(),
-    }
 }

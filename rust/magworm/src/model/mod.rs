@@ -7,20 +7,24 @@ mod explicit_limit;
 mod fingerprint;
 mod inertia;
 mod line;
+mod magnet;
 mod magnetics;
 mod phases;
+mod rigid_body;
 mod robot;
 pub(crate) mod rows;
 mod shape;
 mod waves;
 
-pub use crate::scene::{ContactPoint, Element, Frame, Mesh, MeshMagnet};
+pub use crate::scene::{ContactPoint, Element, Frame, Mesh};
 pub use contacts::{ContactPair, ContactParameters, Surface};
 pub use coordinates::{Anchor, Coordinates, MAX_STENCIL, Spin, Stencil, Tie, Unknowns};
 pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre};
+pub use magnet::{Carrier, Magnet};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
+pub use rigid_body::RigidBody;
 pub use robot::Robot;
 pub use rows::{Allowed, GREATEST, ROWS, Role, RowGroup};
 pub use shape::Shape;
@@ -44,7 +48,11 @@ pub struct Model {
     pub mesh: Mesh,
     /// Unknowns.
     pub coordinates: Coordinates,
-    /// Whose the nodes and magnets are.
+    /// Rigid bodies, head first.
+    pub bodies: Vec<RigidBody>,
+    /// Magnets: those of the bodies, head first, then those of the actuators.
+    pub magnets: Vec<Magnet>,
+    /// Whose the nodes and bodies are.
     pub robots: Vec<Robot>,
     /// Shape of the equations of a step.
     pub system: Chain,
@@ -54,10 +62,8 @@ pub struct Model {
     pub bend: Vec<Bend>,
     /// Shape of the body at the start; none where it is straight.
     pub shape: Option<Shape>,
-    /// Contributions to the mass of each unknown.
-    pub inertia: Vec<MassPart>,
-    /// Rigid bodies whose centre of mass may lie beside the middle of their element; none costs nothing.
-    pub off_centre: Vec<OffCentre>,
+    /// Contributions of the rubber to the mass of each unknown, what is in the middle of bodies aside.
+    pub rubber: Vec<MassPart>,
     /// Unknowns that are translations, with their axis (0 for x, 1 for y, 2 for z).
     pub translations: Vec<(usize, usize)>,
     /// Greatest thickness of the body [m].
@@ -143,15 +149,15 @@ impl Model {
         let coordinates = Coordinates::new(&mesh, unknowns, scene.dimensions);
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
-        let inertia = inertia::mass_parts(scene, &mesh, &coordinates);
-        let off_centre = inertia::off_centre(scene, &mesh, &coordinates);
         let touching = if scene.ground.is_some() { &mesh.contact_points[..] } else { &[] };
         let system = system(&coordinates, &stretch, &bend, touching);
         let contacts = contacts::contact_pairs(touching, &coordinates, &system);
         let in_matrix = coordinates.ties.is_empty();
         stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&system));
         bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
-        let program = Program::new(scene, &mesh);
+        let actuators = Actuator::of(scene);
+        let magnets = Magnet::all(&mesh, scene.drive.as_ref(), &actuators);
+        let program = Program::new(scene, &mesh, &magnets, actuators);
         let step_s = scene.solver.step_s;
         let model = Self {
             scene: scene.clone(),
@@ -164,8 +170,9 @@ impl Model {
             stretch,
             bend,
             shape: Shape::new(scene, &mesh),
-            inertia,
-            off_centre,
+            rubber: inertia::rubber_parts(scene, &mesh, &coordinates),
+            bodies: RigidBody::all(scene, &mesh, &coordinates),
+            magnets,
             phases: Phase::of(&program, &contacts),
             contacts,
             program,
@@ -182,6 +189,17 @@ impl Model {
     /// Number of body magnets, removed ones included.
     pub fn magnets(&self) -> usize {
         self.mesh.magnets.len()
+    }
+
+    /// Which body magnets the scene leaves in.
+    pub fn present(&self) -> Vec<bool> {
+        self.mesh.magnets.iter().map(|held| held.magnet.present).collect()
+    }
+
+    /// Bodies whose centre of mass may lie beside the middle of their element.
+    #[inline(always)]
+    pub fn off_centre(&self) -> impl Iterator<Item = &OffCentre> {
+        self.bodies.iter().filter_map(|body| body.off_centre.as_ref())
     }
 
     /// Number of nodes.
@@ -212,22 +230,22 @@ impl Model {
 }
 
 impl Program {
-    fn new(scene: &Scene, mesh: &Mesh) -> Self {
-        let magnetic = mesh.magnets.iter().any(|magnet| magnet.present);
-        let drive = scene.drive.as_ref().filter(|_| magnetic);
+    fn new(scene: &Scene, mesh: &Mesh, magnets: &[Magnet], actuators: Vec<Actuator>) -> Self {
+        let (held, moved) = magnets.split_at(mesh.magnets.len());
+        let magnetic = mesh.magnets.iter().any(|held| held.magnet.present);
         let field = scene.field.as_ref().filter(|_| magnetic);
         Self {
             gravity_m_s2: (scene.gravity_m_s2 > 0.0).then(|| gravity(scene)),
-            magnetics: drive.map(|drive| Magnetics::new(scene, mesh, drive)),
+            magnetics: (magnetic && !moved.is_empty()).then(|| Magnetics::new(scene, magnets)),
             uniform_field: field.map(|field| UniformTorque {
                 field_t: [field.x_t, field.y_t, field.z_t],
-                magnets: mesh.magnets.iter().map(|m| UniformField::new(m.cuboid())).collect(),
+                magnets: held.iter().map(|magnet| UniformField::new(magnet.cuboid())).collect(),
             }),
             contact: scene
                 .ground
                 .as_ref()
                 .map(|ground| ContactParameters::new(ground, scene, mesh)),
-            actuators: Actuator::of(scene),
+            actuators,
         }
     }
 
@@ -249,7 +267,7 @@ fn gravity(scene: &Scene) -> [f64; 3] {
 }
 
 fn stretch_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec<Stretch> {
-    let flexible = |e: &usize| mesh.elements[*e].magnet.is_none() && e + 2 > mesh.fixed_nodes;
+    let flexible = |e: &usize| mesh.elements[*e].body.is_none() && e + 2 > mesh.fixed_nodes;
     (0..mesh.elements.len())
         .filter(flexible)
         .map(|element| {
@@ -272,9 +290,9 @@ fn bending_springs(scene: &Scene, mesh: &Mesh, coordinates: &Coordinates) -> Vec
     // Two halves of elements in series; a rigid element does not yield.
     let in_series = |node: usize, rigidity_n_m2: &dyn Fn(f64, f64) -> f64| {
         let compliance = |element: usize| {
-            let Element { thickness_m, width_m, magnet } = mesh.elements[element];
+            let Element { thickness_m, width_m, body } = mesh.elements[element];
             let half_m = 0.5 * mesh.element_length_m(element);
-            if magnet.is_some() { 0.0 } else { half_m / rigidity_n_m2(thickness_m, width_m) }
+            if body.is_some() { 0.0 } else { half_m / rigidity_n_m2(thickness_m, width_m) }
         };
         1.0 / (compliance(node - 1) + compliance(node))
     };

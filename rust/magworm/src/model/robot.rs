@@ -1,8 +1,8 @@
-//! A robot of a scene: which nodes and magnets are its own.
+//! A robot of a scene: which nodes and bodies are its own.
 //!
 //! Springs, masses and contacts do not ask whose they are. Whoever steers, follows or watches does: a centre, a heading,
 //! progress, an observation and the targets of a stage are those of one robot, so each names one. A scene has one, which
-//! has all nodes and magnets.
+//! has all nodes and bodies.
 
 use super::{Mesh, Model};
 use std::ops::Range;
@@ -12,7 +12,7 @@ use std::ops::Range;
 pub struct Robot {
     /// Its nodes.
     pub nodes: Range<usize>,
-    /// Its magnets, removed ones included.
+    /// Its rigid bodies.
     pub bodies: Range<usize>,
 }
 
@@ -22,12 +22,12 @@ impl Robot {
 
     /// The one that a whole mesh is made of.
     pub fn whole(mesh: &Mesh) -> Self {
-        Self { nodes: 0..mesh.arc_m.len(), bodies: 0..mesh.magnets.len() }
+        Self { nodes: 0..mesh.arc_m.len(), bodies: 0..mesh.bodies.len() }
     }
 }
 
 impl Model {
-    /// First unknown of each magnet of a robot, see [`super::Coordinates::bodies`].
+    /// First unknown of each body of a robot, see [`super::Coordinates::bodies`].
     #[inline(always)]
     pub fn bodies_of(&self, robot: usize) -> &[usize] {
         &self.coordinates.bodies[self.robots[robot].bodies.clone()]

@@ -95,15 +95,15 @@ macro_rules! block_rows {
                 director: "1", |m| in_space(m, 6 * (m.nodes() - 1)) => Allowed::Frames;
                 /// In space twist of each bending node, beyond ±π where it has gone there, shape [bending nodes].
                 twist: "rad", |m| in_space(m, m.bend.len());
-                /// Force and torque of the drive on each body magnet where they act for several steps, see
-                /// [`crate::model::Magnetics::interval`], shape [magnets × 3], in space [magnets × 6]; else none.
+                /// Force and torque of the drive on each body where they act for several steps, see
+                /// [`crate::model::Magnetics::interval`], shape [bodies × 3], in space [bodies × 6]; else none.
                 wrench: "N, N·m", held_wrenches;
             }
             Derived {
                 /// Mass of each unknown, shape [unknowns].
                 mass: "kg, kg·m²", |m| m.coordinates.count;
                 /// First moments and products of inertia of bodies off their centre, see [`crate::model::OffCentre::row`].
-                off_centre: "kg·m, kg·m²", |m| m.sizes().moments() * m.off_centre.len();
+                off_centre: "kg·m, kg·m²", |m| m.sizes().moments() * m.off_centre().count();
                 /// Remanence of each body magnet along its up direction, 0 where it is out, shape [magnets].
                 remanence: "T", |m| m.magnets();
             }
@@ -120,9 +120,9 @@ macro_rules! block_rows {
                 inverse_length: "1/m", |m| m.nodes() - 1;
                 /// In space side direction of each element, shape [elements × 3].
                 side: "1", |m| in_space(m, 3 * (m.nodes() - 1));
-                /// Cosine and sine of each magnet's angle, shape [magnets × 2]; in space its tangent, up and side,
-                /// shape [magnets × 9].
-                frame: "1", |m| m.sizes().frame * m.magnets();
+                /// Cosine and sine of each body's angle, shape [bodies × 2]; in space its tangent, up and side,
+                /// shape [bodies × 9].
+                frame: "1", |m| m.sizes().frame * m.bodies.len();
                 /// Matrix without contacts, then its factors, see [`crate::lanes::chain`].
                 matrix: "kg, kg·m, kg·m²", |m| m.system.entries();
                 /// Right-hand side, shape [unknowns].
@@ -220,5 +220,5 @@ fn kept(model: &Model, rows: usize) -> usize {
 /// None where each wrench acts for one step.
 fn held_wrenches(model: &Model) -> usize {
     let holds = model.program.magnetics.as_ref().is_some_and(|magnetics| magnetics.interval > 1);
-    if holds { model.sizes().body() * model.magnets() } else { 0 }
+    if holds { model.sizes().body() * model.bodies.len() } else { 0 }
 }

@@ -80,8 +80,11 @@ impl Masses {
     fn new(model: &Model) -> Self {
         let coordinates = Coordinates::new(&model.mesh, Unknowns::Multipliers, model.dimensions());
         let mut of = vec![0.0; coordinates.count];
-        for part in inertia::mass_parts(&model.scene, &model.mesh, &coordinates) {
-            let present = part.body.is_none_or(|body| model.mesh.magnets[body].present);
+        let Model { scene, mesh, .. } = model;
+        let bodies = (0..mesh.bodies.len())
+            .flat_map(|body| inertia::body_parts(scene, mesh, &coordinates, body));
+        for part in inertia::rubber_parts(scene, mesh, &coordinates).into_iter().chain(bodies) {
+            let present = part.cavity.is_none_or(|cavity| mesh.magnets[cavity].magnet.present);
             of[part.row] += part.rubber + if present { part.magnet } else { part.fill };
         }
         Self { of, coordinates }
@@ -112,7 +115,7 @@ fn stretching(model: &Model, masses: &Masses) -> Line {
     let mut unknown = vec![0];
     let mut mass = vec![masses.node(0)];
     for (element, one) in model.mesh.elements.iter().enumerate() {
-        match one.magnet {
+        match one.body {
             Some(body) => {
                 let last = mass.len() - 1;
                 mass[last] += masses.magnet(body) + masses.node(element + 1);
@@ -144,10 +147,10 @@ fn bending(model: &Model, masses: &Masses, axis: usize) -> Line {
         }
     });
     let mut line = Line::new(mass, springs.collect());
-    for (body, magnet) in model.mesh.magnets.iter().enumerate() {
+    for (body, rigid) in model.bodies.iter().enumerate() {
         let (m, turn) = (masses.magnet(body), masses.turn(body, 3 - axis));
-        let turn = turn / (magnet.half_length_m * magnet.half_length_m);
-        line.couple(magnet.element, 0.25 * (m + turn), 0.25 * (m - turn));
+        let turn = turn / (rigid.half_length_m * rigid.half_length_m);
+        line.couple(rigid.element, 0.25 * (m + turn), 0.25 * (m - turn));
     }
     line
 }
@@ -156,7 +159,7 @@ fn bending(model: &Model, masses: &Masses, axis: usize) -> Line {
 fn twisting(model: &Model, masses: &Masses) -> Line {
     let mass: Vec<f64> = (0..model.mesh.elements.len())
         .map(|element| {
-            match (masses.coordinates.twists[element], model.mesh.elements[element].magnet) {
+            match (masses.coordinates.twists[element], model.mesh.elements[element].body) {
                 (Some(dof), _) => masses.of[dof],
                 (None, Some(body)) => masses.turn(body, 0),
                 (None, None) => f64::INFINITY,

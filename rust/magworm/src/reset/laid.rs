@@ -84,7 +84,7 @@ fn straight_drop_m(model: &Model, angle_rad: f64) -> f64 {
         match point.frame {
             Frame::World => None,
             Frame::Body(body) => {
-                let element = model.mesh.magnets[body].element;
+                let element = model.bodies[body].element;
                 Some(-up_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin)
             }
             Frame::Node(node) => Some(-up_m - arc[node] * sin),
@@ -132,7 +132,7 @@ impl<'a> Bent<'a> {
         match point.frame {
             Frame::World => None,
             Frame::Body(body) => {
-                let element = model.mesh.magnets[body].element;
+                let element = model.bodies[body].element;
                 let (t, u) = (self.tangent(element), self.up(element));
                 let arm = t * along_m + u * up_m + t.cross(&u) * side_m;
                 Some((self.middle(element) + arm).y)

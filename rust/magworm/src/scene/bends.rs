@@ -54,7 +54,7 @@ pub(crate) fn bending_lengths_m(mesh: &Mesh, parts: usize, part: usize) -> Vec<f
     let edge_m = |k: usize| mesh.length_m() * k as f64 / parts as f64;
     let (head_m, tail_m) = (edge_m(part), edge_m(part + 1));
     // The middle of a soft element beside a node; of a rigid one its end.
-    let reach_m = |node: usize, element: usize| match mesh.elements[element].magnet {
+    let reach_m = |node: usize, element: usize| match mesh.elements[element].body {
         Some(_) => arc_m[node],
         None => 0.5 * (arc_m[element] + arc_m[element + 1]),
     };

@@ -165,6 +165,23 @@ pub struct SegmentMagnet {
     pub present: bool,
 }
 
+impl SegmentMagnet {
+    /// Volume [m³].
+    pub fn volume_m3(&self) -> f64 {
+        self.length_m * self.width_m * self.height_m
+    }
+
+    /// Mass of the magnet alone [kg].
+    pub fn mass_kg(&self) -> f64 {
+        self.density_kg_m3 * self.length_m * self.width_m * self.height_m
+    }
+
+    /// Place of its centre from the middle of its body along it, up and to the side [m].
+    pub fn offset_m(&self) -> [f64; 3] {
+        [0.0, self.up_m, self.aside_m]
+    }
+}
+
 /// Rubber: linear elastic with Kelvin–Voigt damping, σ = E (ε + τ ε̇).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

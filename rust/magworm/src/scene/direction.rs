@@ -1,5 +1,6 @@
 //! Direction of a magnet's remanence in the frame of its body: along it, up and to its side.
 
+use super::SegmentMagnet;
 use crate::lanes::math::{radians, sin_cos};
 use crate::lanes::{Real, Vec3, Vector};
 
@@ -13,6 +14,15 @@ pub enum Direction {
 }
 
 impl Direction {
+    /// The direction of a magnet's remanence, and its sign along it: straight down is against up.
+    pub(crate) fn of(magnet: &SegmentMagnet) -> (Self, f64) {
+        match unit_vector(magnet.angle_deg, magnet.aside_deg) {
+            [_, 1.0, _] => (Self::Up, 1.0),
+            [_, -1.0, _] => (Self::Up, -1.0),
+            vector => (Self::Oblique(vector), 1.0),
+        }
+    }
+
     /// As a unit vector along the body, up and to its side.
     pub fn vector(&self) -> [f64; 3] {
         match *self {
@@ -45,7 +55,7 @@ impl Direction {
 
 /// Along the body, up and to the side: `angle_deg` from up towards the head, then `aside_deg` out of that plane [°].
 /// Quarter turns are exact.
-pub(super) fn unit_vector(angle_deg: f64, aside_deg: f64) -> [f64; 3] {
+fn unit_vector(angle_deg: f64, aside_deg: f64) -> [f64; 3] {
     let (sin, cos) = sin_cos_deg(angle_deg);
     let (aside, flat) = sin_cos_deg(aside_deg);
     // Adding 0 turns −0 into 0.

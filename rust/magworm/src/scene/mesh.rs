@@ -1,10 +1,9 @@
-//! The mesh: nodes, rod elements, rigid magnets. Section changes and magnet ends fall on nodes.
+//! The mesh: nodes, rod elements, rigid bodies with their magnets. Section changes and the ends of bodies fall on nodes.
 
 use super::contact_point::{ContactPoint, Frame};
-use super::direction::{Direction, unit_vector};
 use super::{Plan, Scene, Segment, SegmentMagnet};
 use crate::lanes::Dimensions;
-use crate::magnetic::Cuboid;
+use std::ops::Range;
 
 /// Nodes and elements along the rest body, head first.
 #[derive(Clone, Debug)]
@@ -13,7 +12,9 @@ pub struct Mesh {
     pub arc_m: Vec<f64>,
     /// One element between each node and the next.
     pub elements: Vec<Element>,
-    /// The magnets, head first.
+    /// Elements that are rigid bodies, head first.
+    pub bodies: Vec<RigidElement>,
+    /// The magnets in them, by body.
     pub magnets: Vec<MeshMagnet>,
     /// Points of the underside that may touch the ground.
     pub contact_points: Vec<ContactPoint>,
@@ -28,56 +29,26 @@ pub struct Element {
     pub thickness_m: f64,
     /// Width of the section, out of the plane [m].
     pub width_m: f64,
-    /// The magnet that makes it rigid.
-    pub magnet: Option<usize>,
+    /// The rigid body that it is.
+    pub body: Option<usize>,
 }
 
-/// A magnet that fills one element.
+/// An element that a magnet makes rigid.
 #[derive(Clone, Copy, Debug)]
-pub struct MeshMagnet {
-    /// The element it fills.
+pub struct RigidElement {
+    /// Which one.
     pub element: usize,
-    /// Half its length: the distance of the element's nodes from its middle [m].
+    /// Distance of its nodes from its middle [m].
     pub half_length_m: f64,
-    /// Edges along the body, its thickness and its width [m].
-    pub size_m: [f64; 3],
-    /// Place of its centre from the middle of its element, along the body, up and to the side [m]; none where it is there.
-    pub offset_m: Option<[f64; 3]>,
-    /// Magnitude of the remanence [T].
-    pub remanence_t: f64,
-    /// −1 where it is magnetised straight down, else 1: sign of its remanence along `direction`.
-    pub polarity: f64,
-    /// Direction of the remanence; up where it is magnetised straight down.
-    pub direction: Direction,
-    /// Density [kg/m³].
-    pub density_kg_m3: f64,
-    /// Whether the scene leaves the magnet in.
-    pub present: bool,
 }
 
-impl MeshMagnet {
-    /// Its cuboid.
-    pub fn cuboid(&self) -> Cuboid {
-        let [length_m, height_m, width_m] = self.size_m;
-        Cuboid { length_m, height_m, width_m }
-    }
-
-    /// Whether another magnet has its shape and direction; strength and polarity aside.
-    pub fn is_alike(&self, other: &Self) -> bool {
-        self.size_m == other.size_m && self.direction == other.direction
-    }
-
-    /// Volume [m³].
-    pub fn volume_m3(&self) -> f64 {
-        let [length_m, height_m, width_m] = self.size_m;
-        length_m * width_m * height_m
-    }
-
-    /// Mass of the magnet alone [kg].
-    pub fn mass_kg(&self) -> f64 {
-        let [length_m, height_m, width_m] = self.size_m;
-        self.density_kg_m3 * length_m * width_m * height_m
-    }
+/// A magnet in a rigid body.
+#[derive(Clone, Debug)]
+pub struct MeshMagnet {
+    /// The body.
+    pub body: usize,
+    /// What the scene says of it. Its place along the segment is that of its body.
+    pub magnet: SegmentMagnet,
 }
 
 impl Mesh {
@@ -88,6 +59,7 @@ impl Mesh {
         let mut mesh = Self {
             arc_m: vec![-behind_wall_m],
             elements: Vec::new(),
+            bodies: Vec::new(),
             magnets: Vec::new(),
             contact_points: Vec::new(),
             fixed_nodes: if plan.behind_wall_m.is_some() { 2 } else { 0 },
@@ -117,13 +89,18 @@ impl Mesh {
         self.arc_m[element + 1] - self.arc_m[element]
     }
 
-    /// Mean distance between the middles of adjacent magnets [m]; none with less than two.
+    /// Mean distance between the middles of adjacent bodies [m]; none with less than two.
     pub fn pitch_m(&self) -> Option<f64> {
-        let middle_m = |magnet: &MeshMagnet| {
-            0.5 * (self.arc_m[magnet.element] + self.arc_m[magnet.element + 1])
-        };
-        let [first, .., last] = self.magnets.as_slice() else { return None };
-        Some((middle_m(last) - middle_m(first)) / (self.magnets.len() - 1) as f64)
+        let middle_m =
+            |body: &RigidElement| 0.5 * (self.arc_m[body.element] + self.arc_m[body.element + 1]);
+        let [first, .., last] = self.bodies.as_slice() else { return None };
+        Some((middle_m(last) - middle_m(first)) / (self.bodies.len() - 1) as f64)
+    }
+
+    /// The magnets of a body.
+    pub fn magnets_of(&self, body: usize) -> Range<usize> {
+        let before = |of: usize| self.magnets.partition_point(|magnet| magnet.body < of);
+        before(body)..before(body + 1)
     }
 
     /// Volume of an element with what is in it [m³].
@@ -132,30 +109,31 @@ impl Mesh {
         self.element_length_m(element) * thickness_m * width_m
     }
 
-    /// A magnet, the rubber before and behind it, and its contact points where the segment is a foot.
+    /// A body with its magnet, the rubber before and behind it, and its contact points where the segment is a foot.
     fn add_magnet(&mut self, segment: &Segment, magnet: &SegmentMagnet, dimensions: usize) {
         let [before_m, behind_m] = segment.ends_m(magnet);
         self.add_elements(segment, before_m, None);
-        let (body, element) = (self.magnets.len(), self.elements.len());
+        let (body, element) = (self.bodies.len(), self.elements.len());
         self.add_elements(segment, magnet.length_m, Some(body));
-        self.magnets.push(mesh_magnet(magnet, element));
+        self.bodies.push(RigidElement { element, half_length_m: 0.5 * magnet.length_m });
+        self.magnets.push(MeshMagnet { body, magnet: magnet.clone() });
         self.add_elements(segment, behind_m, None);
         if segment.foot {
             self.add_corners(segment, magnet.along_m, body, dimensions);
         }
     }
 
-    /// Elements of equal length, one where they hold a magnet and none where there is no length.
-    fn add_elements(&mut self, segment: &Segment, length_m: f64, magnet: Option<usize>) {
+    /// Elements of equal length, one where it is a rigid body and none where there is no length.
+    fn add_elements(&mut self, segment: &Segment, length_m: f64, body: Option<usize>) {
         let Segment { thickness_m, width_m, elements, .. } = *segment;
-        let parts = match magnet {
+        let parts = match body {
             Some(_) => 1,
             None if length_m > 0.0 => elements,
             None => 0,
         };
         let start_m = self.length_m();
         for part in 1..=parts {
-            self.elements.push(Element { thickness_m, width_m, magnet });
+            self.elements.push(Element { thickness_m, width_m, body });
             self.arc_m.push(start_m + length_m * part as f64 / parts as f64);
         }
     }
@@ -188,22 +166,5 @@ impl Mesh {
                 place_m: [0.0, -0.5 * thickness_m(node), 0.0],
             })
             .collect()
-    }
-}
-
-fn mesh_magnet(magnet: &SegmentMagnet, element: usize) -> MeshMagnet {
-    let vector = unit_vector(magnet.angle_deg, magnet.aside_deg);
-    let (upright, down) = (vector[1].abs() == 1.0, vector[1] == -1.0);
-    let offset_m = [0.0, magnet.up_m, magnet.aside_m];
-    MeshMagnet {
-        element,
-        half_length_m: 0.5 * magnet.length_m,
-        size_m: [magnet.length_m, magnet.height_m, magnet.width_m],
-        offset_m: (offset_m != [0.0; 3]).then_some(offset_m),
-        remanence_t: magnet.remanence_t,
-        polarity: if down { -1.0 } else { 1.0 },
-        direction: if upright { Direction::Up } else { Direction::Oblique(vector) },
-        density_kg_m3: magnet.density_kg_m3,
-        present: magnet.present,
     }
 }

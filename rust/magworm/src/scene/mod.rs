@@ -41,7 +41,7 @@ pub use direction::Direction;
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
 pub use error::{Problem, SceneError};
 #[doc(hidden)] // for the project's own tests
-pub use mesh::{Element, Mesh, MeshMagnet};
+pub use mesh::{Element, Mesh, MeshMagnet, RigidElement};
 pub use preset::PRESETS;
 pub(crate) use schema::quantity;
 pub(crate) use segments::Plan;

@@ -46,7 +46,7 @@ impl<R: Row> Block<R> {
         match model.coordinates.anchors[node] {
             Anchor::Free { dof } => self.vector(&self.q, dof, axes, lane),
             Anchor::Rigid { body, side } => {
-                let arm = f64::from(side) * model.mesh.magnets[body].half_length_m;
+                let arm = f64::from(side) * model.bodies[body].half_length_m;
                 let dof = model.coordinates.bodies[body];
                 self.vector(&self.q, dof, axes, lane) + self.rotation(model, body, lane).0 * arm
             }
@@ -73,7 +73,7 @@ impl<R: Row> Block<R> {
             let (sin, cos) = sin_cos(angle_rad);
             return (Vector3::new(cos, sin, 0.0), about_z(angle_rad));
         }
-        let up_row = 6 * model.mesh.magnets[body].element;
+        let up_row = 6 * model.bodies[body].element;
         let [up, tangent] =
             [up_row, up_row + 3].map(|row| self.vector(&self.director, row, 3, lane));
         let matrix = Matrix3::from_columns(&[tangent, up, tangent.cross(&up)]);

@@ -18,7 +18,7 @@ fn asked(world: &World, list_deg: &[f64]) -> Vec<f64> {
         }
         let middle_m = 0.5 * (mesh.arc_m[element] + mesh.arc_m[element + 1]);
         let node = element + usize::from(share * length_m > middle_m);
-        if mesh.elements[element].magnet.is_none() && node > 0 && node < mesh.elements.len() {
+        if mesh.elements[element].body.is_none() && node > 0 && node < mesh.elements.len() {
             counts[(share * list_deg.len() as f64) as usize][node - 1] += 1.0;
         }
     }
@@ -88,9 +88,9 @@ fn a_node_takes_its_share_of_each_part() {
     assert!(clamped.place(0).x < 0.0 && clamped.place(0).y == 0.0 && clamped.place(1).y == 0.0);
     // Nothing of a magnet bends.
     let robot = World::new("paper-3", &[&[("start.bends_deg", "[90]")]]);
-    for magnet in &robot.model.mesh.magnets {
-        let (head, tail) = (robot.place(magnet.element), robot.place(magnet.element + 1));
-        assert!(((tail - head).norm() - 2.0 * magnet.half_length_m).abs() < 1e-15);
+    for body in &robot.model.bodies {
+        let (head, tail) = (robot.place(body.element), robot.place(body.element + 1));
+        assert!(((tail - head).norm() - 2.0 * body.half_length_m).abs() < 1e-15);
     }
 }
 

@@ -28,7 +28,7 @@ impl Cut<'_> {
         let modulus = self.scene.material.youngs_modulus_pa;
         let rest = |e: usize| mesh.arc_m[e + 1] - mesh.arc_m[e];
         let edge = |e: usize| [node[e + 1][0] - node[e][0], node[e + 1][1] - node[e][1]];
-        let soft = |e: &usize| mesh.elements[*e].magnet.is_none();
+        let soft = |e: &usize| mesh.elements[*e].body.is_none();
         let mut out = Vec::new();
         for e in (0..mesh.elements.len()).filter(soft) {
             let area = mesh.elements[e].width_m * mesh.elements[e].thickness_m;
@@ -38,7 +38,7 @@ impl Cut<'_> {
         for i in 1..mesh.elements.len() {
             let (a, b) = (edge(i - 1), edge(i));
             let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-            let half = |e: usize| match mesh.elements[e].magnet {
+            let half = |e: usize| match mesh.elements[e].body {
                 Some(_) => 0.0,
                 None => {
                     let section = mesh.elements[e];
@@ -67,7 +67,7 @@ fn nodes(world: &World, q: &[f64]) -> Vec<[f64; 2]> {
             Anchor::Free { dof } => [q[dof], q[dof + 1]],
             Anchor::Rigid { body, side } => {
                 let dof = coordinates.bodies[body];
-                let arm = f64::from(side) * world.model.mesh.magnets[body].half_length_m;
+                let arm = f64::from(side) * world.model.bodies[body].half_length_m;
                 [q[dof] + arm * q[dof + 2].cos(), q[dof + 1] + arm * q[dof + 2].sin()]
             }
             Anchor::Fixed => [
@@ -221,7 +221,7 @@ fn expected_matrix(world: &World, q: &[f64], [spring_s, geometric_s]: [f64; 2]) 
     let mut matrix = DMatrix::from_diagonal(&DVector::from_vec(masses));
     let place = nodes(world, q);
     let soft: Vec<usize> =
-        (0..place.len() - 1).filter(|&e| world.model.mesh.elements[e].magnet.is_none()).collect();
+        (0..place.len() - 1).filter(|&e| world.model.mesh.elements[e].body.is_none()).collect();
     for (index, (strain, gradient)) in strains(world, q).iter().zip(gradients(world, q)).enumerate()
     {
         matrix += &gradient * gradient.transpose() * (dt * spring_s * strain.stiffness);

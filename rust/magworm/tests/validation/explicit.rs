@@ -16,7 +16,7 @@ fn drift_m(world: &World) -> f64 {
         .iter()
         .map(|tie| {
             let [x, y, theta] = world.block.planar_pose(model, tie.body, 0);
-            let arm = f64::from(tie.side) * model.mesh.magnets[tie.body].half_length_m;
+            let arm = f64::from(tie.side) * model.bodies[tie.body].half_length_m;
             let Anchor::Free { dof } = model.coordinates.anchors[tie.node] else {
                 return f64::INFINITY;
             };

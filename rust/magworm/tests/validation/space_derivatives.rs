@@ -47,9 +47,9 @@ impl Shape {
                 }
                 Anchor::Rigid { body, side } => {
                     let first = coordinates.bodies[body];
-                    let e = world.model.mesh.magnets[body].element;
+                    let e = world.model.bodies[body].element;
                     let arm = self.tangent(e)
-                        * (f64::from(side) * world.model.mesh.magnets[body].half_length_m);
+                        * (f64::from(side) * world.model.bodies[body].half_length_m);
                     let motion = dof.checked_sub(first).filter(|k| *k < 6);
                     match motion {
                         Some(k) if k < 3 => after.place[node][k] += by,
@@ -82,7 +82,7 @@ impl Shape {
         let modulus = scene.material.youngs_modulus_pa;
         let shear = modulus / (2.0 * (1.0 + scene.material.poisson_ratio));
         let rest = |e: usize| mesh.arc_m[e + 1] - mesh.arc_m[e];
-        let soft = |e: usize| mesh.elements[e].magnet.is_none();
+        let soft = |e: usize| mesh.elements[e].body.is_none();
         let mut out = Vec::new();
         for e in (0..self.up.len()).filter(|&e| soft(e) && e + 2 > mesh.fixed_nodes) {
             let value = (self.place[e + 1] - self.place[e]).norm() - rest(e);
@@ -190,10 +190,10 @@ fn bent(body: usize, random: &[f64]) -> World {
             world.block.q[dof + axis][0] += 6e-4 * draw();
         }
     }
-    for magnet in world.model.mesh.magnets.clone() {
+    for body in world.model.bodies.clone() {
         let turn = Rotation3::new(Vector::from_fn(|_, _| 0.4 * draw()));
-        let (up, tangent) = (world.up(magnet.element), world.frame_tangent(magnet.element));
-        world.set_frame(magnet.element, turn * up, turn * tangent);
+        let (up, tangent) = (world.up(body.element), world.frame_tangent(body.element));
+        world.set_frame(body.element, turn * up, turn * tangent);
     }
     world.refresh();
     for element in 0..world.last() {

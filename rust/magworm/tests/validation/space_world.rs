@@ -102,8 +102,7 @@ impl World {
 
     /// Angular momentum of a magnet about its own centre [kg·m²/s].
     fn spin(&self, body: usize) -> Vector {
-        let (dof, element) =
-            (self.model.coordinates.bodies[body], self.model.mesh.magnets[body].element);
+        let (dof, element) = (self.model.coordinates.bodies[body], self.model.bodies[body].element);
         let (up, tangent) = (self.up(element), self.frame_tangent(element));
         let rate = vector(&self.block.v, dof + 3);
         let axes = [tangent, up, tangent.cross(&up)];

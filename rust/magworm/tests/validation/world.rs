@@ -65,7 +65,7 @@ impl World {
 
     fn from_model(model: Model, start: StartPose) -> Self {
         let mut block = Block::new(&model);
-        let present: Vec<bool> = model.mesh.magnets.iter().map(|m| m.present).collect();
+        let present = model.present();
         let factors = [1.0; Model::PARAMETERS.len()];
         reset(&model, &mut block, 0, start, &factors, &present, Draws::new(0, 0));
         Self { model, block }
