@@ -18,6 +18,7 @@ from magworm_gym.identification import (
     write_results,
 )
 from magworm_gym.identification.evaluation import BROKEN, REFUSED, Evaluator
+from magworm_gym.identification.experiment import fitted_scene
 from magworm_gym.identification.problem import scene_numbers
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.targets import Comparison, Target
@@ -281,7 +282,7 @@ def test_refused_scenes_are_worse_than_broken_ones_and_those_than_any_other():
         },
         Path(),
     )
-    worst, bad, good = Evaluator(problem).losses(np.array([[0.0], [0.2], [0.9]]))
+    worst, bad, good = Evaluator(problem).losses(np.array([[0.0], [0.2], [0.9]]), np.full(3, np.inf))
     assert good < BROKEN < REFUSED < bad < worst
 
 
@@ -335,7 +336,7 @@ def test_ratios_logarithms_and_known_values(tmp_path):
     assert values["material.youngs_modulus_pa"] == pytest.approx(1e5)
     assert values["ground.dynamic_friction"] == pytest.approx(0.5)
     assert problem.space.unit_of(values) == pytest.approx([0.5, 0.5, 0.0])
-    slow, still = (experiment.scene_with(values).to_toml() for experiment in problem.experiments)
+    slow, still = (fitted_scene(experiment, values).to_toml() for experiment in problem.experiments)
     assert "static_friction = 0.9\n" in slow and "dynamic_friction = 0.8\n" in slow
     assert "static_friction = 1.0\n" in still and "dynamic_friction = 0.5\n" in still
     assert problem.settings.seed == 7

@@ -123,7 +123,7 @@ TARGET = {"quantity": "stride_m", "value": 1e-3, "tolerance": 1e-5}
             {"targets": [{**TARGET, "weight": 2}]},
             r"targets\[0\].weight is not a setting; allowed here: quantity",
         ),
-        ({"targets": []}, "no experiment has targets or tracks"),
+        ({"targets": []}, "nothing is fitted; allowed: at least one target"),
         ({"targets": [TARGET], "values": {}}, "the drive is a controlled one and would stand still"),
         ({"targets": [TARGET], "values": {"ground.statik": 1}}, "ground.statik is not a field of a scene"),
         ({"targets": [TARGET], "duration_s": 0.0011}, "duration_s of experiment 'experiment-1' is 0.0011"),

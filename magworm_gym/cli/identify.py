@@ -61,6 +61,16 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--threads", type=_positive, help="threads (default: all cores); no effect on results"
     )
+    parser.add_argument(
+        "--without",
+        nargs="+",
+        default=[],
+        metavar="GROUP",
+        help="groups of claims of the problem file that are not fitted, only reported",
+    )
+    parser.add_argument(
+        "--blind", action="store_true", help="leave out the robots that the problem file starts from"
+    )
     parser.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
     _add_search(parser.add_argument_group("search (replaces what the problem file says)"))
     _add_film(parser.add_argument_group("one film in place of a problem file"))
@@ -143,6 +153,8 @@ def run(parsed: argparse.Namespace) -> None:
 
 def _identify(parsed: argparse.Namespace) -> None:
     search = {name: value for name in SEARCH_FLAGS if (value := getattr(parsed, name)) is not None}
+    if parsed.blind:
+        search["blind"] = True
     problem = _problem(parsed, search)
     with ProgressBar(quiet=parsed.quiet) as progress:
         found = identify(problem, parsed.out, resume=parsed.resume, threads=parsed.threads, progress=progress)
@@ -155,7 +167,7 @@ def _problem(parsed: argparse.Namespace, search: dict[str, Any]) -> Problem:
     if parsed.problem is not None:
         if parsed.tracks is not None or parsed.fit is not None:
             raise ProblemError("a problem file and --tracks or --fit are given; allowed: one or the other")
-        return read_problem(parsed.problem, search)
+        return read_problem(parsed.problem, search, parsed.without)
     if parsed.tracks is None:
         raise ProblemError("neither a problem file nor --tracks is given; allowed: one of them")
     for name in NEEDED_FLAGS:
@@ -222,6 +234,9 @@ def _summary(found: Identification, out: Path) -> str:
         f"{finding.parameter.label} = {finding.best:.5g}: {'; '.join(finding.sentences())}"
         for finding in found.findings
     ]
+    held = [outcome.met for outcome in found.outcomes if not outcome.fitted]
+    if held:
+        lines.append(f"of {len(held)} targets that were held out {sum(held)} are met")
     lines.append(f"loss {found.loss:.4g} of {found.problem.measurements:.0f} measurements")
     lines.append(f"{out / 'scene.toml'}, {out / 'report.md'}, {out / 'report.json'}")
     return "\n".join(lines)

@@ -1,26 +1,28 @@
-"""The loss of candidates: all experiments of all candidates in one parallel run."""
+"""The loss of candidates, many side by side."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Scene, SceneError
+from magworm_gym._magworm import SceneError
+from magworm_gym.identification.experiment import Run
 from magworm_gym.identification.problem import Problem, scene_numbers
-from magworm_gym.identification.targets import Outcome, Recordings
-from magworm_gym.recording import Recording, record_scenes
+from magworm_gym.identification.targets import Aim, Outcome
+from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
+T = TypeVar("T")
 
 BROKEN = 1e6
-"""Loss from which on a simulation broke down: up to three times as much, the less the sooner it did."""
+"""Loss from which on a simulation broke down: up to three times as much, the less the later it did."""
 
 REFUSED = 1e9
 """Loss from which on a scene cannot be simulated at all: it grows with the distance from the base."""
-
-CHUNK_S = 4e4
-"""Simulated time that is run at a time, so that recordings fit into memory [s]."""
 
 
 @dataclass(frozen=True)
@@ -28,102 +30,148 @@ class Verdict:
     """What became of a candidate.
 
     Attributes:
-        loss: Sum of the squares of the residuals, or a penalty [1].
-        residuals: Residuals (R,) [1]; None where there is a penalty.
+        loss: Sum of the squares of the residuals, or a penalty [1]. Beyond the bound that was asked for it is
+            the sum of those that were known by then, which is less.
+        residuals: Residuals (R,) [1]; None where there is a penalty or the bound was passed.
     """
 
     loss: float
     residuals: Floats | None = None
 
 
+@dataclass(frozen=True)
+class Stage:
+    """A run, and what can be judged after it.
+
+    Attributes:
+        run: The run.
+        aims: What needs its recordings and perhaps those of earlier runs.
+    """
+
+    run: Run
+    aims: tuple[Aim, ...]
+
+
 class Evaluator:
     """Runs candidates.
 
+    A candidate runs on one thread, one stage after the other, until its loss is beyond a bound: what fits
+    badly costs little.
+
     Args:
         problem: The problem.
-        threads: None for all cores; the result is the same bit for bit.
+        threads: Candidates that run at once, None for as many as there are cores; the result is the same bit
+            for bit.
     """
 
     def __init__(self, problem: Problem, threads: int | None = None) -> None:
         self.problem = problem
         self.base_unit = problem.space.unit_of(_base_values(problem))
-        self._threads = threads
+        self._threads = threads or os.cpu_count() or 1
+        self._fitted = _stages(problem.runs, [aim for aim in problem.aims if aim.fitted])
 
-    def losses(self, units: Floats) -> Floats:
-        """Losses (C,) of points of the cube (C, P)."""
-        return np.array([verdict.loss for verdict in self.verdicts(units)])
+    def losses(self, units: Floats, bounds: Floats) -> Floats:
+        """Losses (C,) of points of the cube (C, P); beyond bounds (C,) they are less than exact."""
+        return np.array([verdict.loss for verdict in self._all(self._verdict, units, bounds)])
 
     def verdicts(self, units: Floats) -> list[Verdict]:
         """What becomes of points of the cube (C, P)."""
-        return [self._verdict(unit, runs) for unit, runs in self._runs(units)]
+        return self._all(self._verdict, units, np.full(len(units), np.inf))
 
     def outcomes(self, unit: Floats) -> list[Outcome]:
-        """How well a point of the cube (P,) meets each target; empty where it cannot be simulated."""
-        ((_, runs),) = self._runs(unit[None])
-        if not isinstance(runs, dict):
-            return []
-        return [aim.outcome(runs) for aim in self.problem.aims]
+        """How well a point of the cube (P,) meets each target; those that cannot be simulated say so."""
+        values = self.problem.space.scene_values(unit)
+        runs = self._all(lambda run: self._attempt(run, values), self.problem.runs)
+        told = dict(zip((run.name for run in self.problem.runs), runs, strict=True))
+        return [_outcome(aim, told) for aim in self.problem.aims]
 
     def refusal(self, unit: Floats) -> str:
         """Why a point of the cube (P,) cannot be simulated, in words."""
-        ((_, runs),) = self._runs(unit[None])
-        if isinstance(runs, str):
-            return runs
-        return next((run.broken for run in runs.values() if run.broken), "it can")
-
-    def _runs(self, units: Floats) -> Iterator[tuple[Floats, Recordings | str]]:
-        """Each point with its recordings, or with why its scene was refused."""
-        size = max(1, int(CHUNK_S / self.problem.simulated_s))
-        for first in range(0, len(units), size):
-            chunk = units[first : first + size]
-            scenes = [self._scenes(unit) for unit in chunk]
-            yield from zip(chunk, self._record(scenes), strict=True)
-
-    def _scenes(self, unit: Floats) -> list[Scene] | str:
         values = self.problem.space.scene_values(unit)
+        for stage in self._fitted:
+            told = self._attempt(stage.run, values)
+            if isinstance(told, str):
+                return told
+            for recording in told.values():
+                if recording.broken:
+                    return recording.broken
+        return "it can"
+
+    def _all(self, task: Callable[..., T], *arguments: Iterable[object]) -> list[T]:
+        """Runs a task for each of its arguments; an interruption drops those that have not begun."""
+        with ThreadPoolExecutor(self._threads) as pool:
+            return list(pool.map(task, *arguments))
+
+    def _attempt(self, run: Run, values: dict[str, float]) -> dict[str, Recording] | str:
+        """Recordings of a run, or why its scene was refused."""
         try:
-            return [experiment.scene_with(values) for experiment in self.problem.experiments]
+            return run.record(values, self.problem.sample_s)
         except SceneError as error:
             return str(error)
 
-    def _record(self, candidates: list[list[Scene] | str]) -> list[Recordings | str]:
-        experiments = self.problem.experiments
-        good = [scenes for scenes in candidates if not isinstance(scenes, str)]
-        recordings = iter(
-            record_scenes(
-                [scene for scenes in good for scene in scenes],
-                [experiment.duration_s for experiment in experiments] * len(good),
-                self.problem.sample_s,
-                nodes=False,
-                threads=self._threads,
-            )
-            if good
-            else []
-        )
-        names = [experiment.name for experiment in experiments]
-        return [
-            scenes if isinstance(scenes, str) else {name: next(recordings) for name in names}
-            for scenes in candidates
-        ]
+    def _verdict(self, unit: Floats, bound: float) -> Verdict:
+        values = self.problem.space.scene_values(unit)
+        recordings: dict[str, Recording] = {}
+        residuals: list[Floats] = []
+        loss = 0.0
+        for done, stage in enumerate(self._fitted):
+            told = self._attempt(stage.run, values)
+            if isinstance(told, str):
+                return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())))
+            idle = [_share_after_break(each) for each in told.values() if each.broken]
+            if idle:
+                left = len(self._fitted) - done - 1 + (len(idle) + sum(idle)) / (2 * len(told))
+                return Verdict(BROKEN * (1.0 + 2.0 * left / len(self._fitted)))
+            recordings.update(told)
+            residuals += [aim.residuals(recordings) for aim in stage.aims]
+            loss = float(sum(np.square(each).sum() for each in residuals))
+            if not np.isfinite(loss):
+                return Verdict(BROKEN * 3.0)
+            if loss > bound:
+                return Verdict(min(loss, BROKEN))
+        return Verdict(min(loss, BROKEN), np.concatenate(residuals))
 
-    def _verdict(self, unit: Floats, runs: Recordings | str) -> Verdict:
-        if isinstance(runs, str):
-            return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())))
-        stood_still = [_share_after_break(run) for run in runs.values() if run.broken]
-        if stood_still:
-            return Verdict(BROKEN * (1.0 + len(stood_still) / len(runs) + float(np.mean(stood_still))))
-        residuals = np.concatenate([aim.residuals(runs) for aim in self.problem.aims])
-        loss = float(np.square(residuals).sum())
-        if not np.isfinite(loss):
-            return Verdict(BROKEN * 3.0)
-        return Verdict(min(loss, BROKEN), residuals)
+
+def _stages(runs: Iterable[Run], aims: list[Aim]) -> list[Stage]:
+    """Runs that an aim needs, in their order, each with the aims that can be judged after it."""
+    stages: list[Stage] = []
+    for run in runs:
+        if not any(run.name in aim.sources for aim in aims):
+            continue
+        known = {stage.run.name for stage in stages} | {run.name}
+        ready = [aim for aim in aims if run.name in aim.sources and aim.sources <= known]
+        stages.append(Stage(run, tuple(ready)))
+    return stages
+
+
+def _outcome(aim: Aim, told: dict[str, dict[str, Recording] | str]) -> Outcome:
+    """How well an aim is met by what runs gave."""
+    recordings: dict[str, Recording] = {}
+    for source in sorted(aim.sources):
+        given = told[source]
+        if isinstance(given, str):
+            return Outcome(
+                name=aim.name,
+                target="a scene that can be simulated",
+                model=float("nan"),
+                error_percent=None,
+                error_tolerances=float("nan"),
+                loss=float("nan"),
+                remark=given,
+                met=False,
+                fitted=aim.fitted,
+            )
+        recordings.update(given)
+    outcome = aim.outcome(recordings)
+    broken = [recording.broken for recording in recordings.values() if recording.broken]
+    return replace(outcome, met=False, remark=broken[0]) if broken else outcome
 
 
 def _base_values(problem: Problem) -> dict[str, float]:
-    """Numbers of the base scene, and of the experiments where it has none."""
+    """Numbers of the base scene, and of the runs where it has none."""
     numbers: dict[str, float] = {}
-    for experiment in problem.experiments[::-1]:
-        numbers.update(scene_numbers(experiment.scene))
+    for run in problem.runs[::-1]:
+        numbers.update(scene_numbers(run.scene))
     return {**numbers, **scene_numbers(problem.base)}
 
 

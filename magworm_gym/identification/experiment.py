@@ -2,15 +2,47 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 from magworm_gym._magworm import Scene, SceneError
 from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.recording import Recording, record_scenes
+
+
+class Run(Protocol):
+    """Something that a candidate does and that is looked at: an experiment or a sweep."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, before parameters are set."""
+
+    @property
+    def known(self) -> frozenset[str]:
+        """Paths that it sets itself; a parameter of the same path is not fitted here."""
+
+    @property
+    def simulated_s(self) -> float:
+        """Simulated time of a candidate, all its robots together [s]."""
+
+    def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
+        """What a candidate does, on one thread.
+
+        Args:
+            values: Path of a field → its value.
+            sample_s: Time between two instants [s].
+
+        Raises:
+            SceneError: The scene cannot be simulated.
+        """
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """A scene that runs once from its start pose.
+    """A scene that runs once from its start pose; its recording has its name.
 
     Attributes:
         name: Its name.
@@ -24,17 +56,29 @@ class Experiment:
     scene: Scene
     known: frozenset[str] = field(default_factory=frozenset)
 
-    def scene_with(self, values: Mapping[str, float]) -> Scene:
-        """The scene of a candidate.
+    @property
+    def simulated_s(self) -> float:
+        """Simulated time of a candidate [s]."""
+        return self.duration_s
 
-        Args:
-            values: Path of a field → its value.
+    def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
+        """See :meth:`Run.record`."""
+        scene = fitted_scene(self, values)
+        (recording,) = record_scenes([scene], self.duration_s, sample_s, nodes=False, threads=1)
+        return {self.name: recording}
 
-        Raises:
-            SceneError: The scene cannot be simulated.
-        """
-        unknown = {path: value for path, value in values.items() if path not in self.known}
-        return self.scene.with_values(unknown)
+
+def fitted_scene(run: Run, values: Mapping[str, float]) -> Scene:
+    """The scene of a candidate: its values where the run does not set them itself.
+
+    Args:
+        run: The run.
+        values: Path of a field → its value.
+
+    Raises:
+        SceneError: The scene cannot be simulated.
+    """
+    return run.scene.with_values({path: value for path, value in values.items() if path not in run.known})
 
 
 def edited_scene(scene: Scene, values: Mapping[str, Any], where: str) -> Scene:

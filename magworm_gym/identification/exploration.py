@@ -3,44 +3,23 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.identification.search import Losses, Progress
+from magworm_gym.identification.search import Limit, Losses, Progress
 from magworm_gym.identification.settings import SearchSettings
 
 Floats = NDArray[np.float64]
 
 ROUND = 64
-CHI_SQUARE_95 = 3.84
-"""95 % quantile of chi-square with one degree of freedom [1]."""
-
-ABOUT = 0.2
-"""Part of the least loss that a candidate may be worse by and still fit about as well [1]."""
 
 FIRST_SPREAD = 0.02
 """Least standard deviation of steps along the axes, as a part of the bounds [1]."""
 
 
-def threshold(best: float, measurements: float, parameters: int) -> float:
-    """Loss up to which a candidate fits about as well as the best.
-
-    best + 3.84 max(1, best / (n − p)): the range of each parameter is then its likelihood interval of
-    95 %, with the noise taken from the misfit where that is greater than the tolerances. Where the model
-    misses the data, what is a fifth worse does not fit as well, however few the measurements.
-
-    Args:
-        best: Least loss [1].
-        measurements: Number of independent measurements n [1].
-        parameters: Number of parameters p.
-    """
-    widened = CHI_SQUARE_95 * best / max(measurements - parameters, 1.0)
-    return best + max(CHI_SQUARE_95, min(widened, ABOUT * best))
-
-
 def explore(
     losses: Losses,
+    limit: Limit,
     axes: Floats,
     units: Floats,
     known: Floats,
-    measurements: float,
     settings: SearchSettings,
     progress: Progress | None = None,
 ) -> tuple[Floats, Floats]:
@@ -50,11 +29,11 @@ def explore(
     the derivatives call free, some along one parameter, some along one parameter to anywhere.
 
     Args:
-        losses: Gives the losses (C,) of points of the unit cube (C, P).
+        losses: Gives the losses.
+        limit: Gives the loss up to which a candidate fits about as well as the best.
         axes: Steps (P, P) at the best point, one a row, that should fit about as well.
         units: Candidates of the search (C, P).
         known: Their losses (C,).
-        measurements: Number of independent measurements [1].
         settings: Settings.
         progress: Told after each round.
 
@@ -63,9 +42,10 @@ def explore(
     """
     generator = np.random.default_rng([settings.seed, 2])
     for done in range(settings.rounds):
-        members = units[known <= threshold(float(known.min()), measurements, units.shape[1])]
-        proposed = _proposals(members, axes, generator)
-        units, known = np.vstack([units, proposed]), np.append(known, losses(proposed))
+        bound = limit(float(known.min()))
+        proposed = _proposals(units[known <= bound], axes, generator)
+        found = losses(proposed, np.full(ROUND, bound))
+        units, known = np.vstack([units, proposed]), np.append(known, found)
         if progress is not None:
             progress("explore", done + 1, settings.rounds, float(known.min()))
     return units, known

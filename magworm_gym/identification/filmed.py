@@ -28,6 +28,7 @@ class Film:
         points_m: The places (N, 2) in the axes of the scene [m].
         tolerance_m: Deviation that counts as one: what tracking and model may be off [m].
         independent_s: Time after which two deviations count as independent of each other [s].
+        fitted: Whether it is part of the loss.
     """
 
     experiment: str
@@ -37,6 +38,17 @@ class Film:
     points_m: Floats
     tolerance_m: float
     independent_s: float
+    fitted: bool = True
+
+    @property
+    def sources(self) -> frozenset[str]:
+        """Name of its experiment."""
+        return frozenset({self.experiment})
+
+    @property
+    def name(self) -> str:
+        """What is compared."""
+        return f"{self.experiment}: tracks, rms deviation of a coordinate in m"
 
     @cached_property
     def weight(self) -> float:
@@ -66,7 +78,7 @@ class Film:
         usual = np.abs(deviation) < 5.0 * max(self.tolerance_m, 1.4826 * float(np.median(np.abs(deviation))))
         rms = float(np.sqrt(np.mean(np.square(deviation[usual]))))
         return Outcome(
-            name=f"{self.experiment}: tracks, rms deviation of a coordinate in m",
+            name=self.name,
             target=f"within {self.tolerance_m:g}",
             model=rms,
             error_percent=None,
@@ -74,6 +86,7 @@ class Film:
             loss=float(np.square(self.residuals(recordings)).sum()),
             remark=f"{len(self.time_s)} points of magnets, {np.count_nonzero(~usual)} of "
             f"{usual.size} coordinates are outliers",
+            met=rms <= self.tolerance_m,
         )
 
 

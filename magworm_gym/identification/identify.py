@@ -11,18 +11,23 @@ from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
 from magworm_gym.identification.combinations import FreeCombination, free_combinations
 from magworm_gym.identification.evaluation import Evaluator
-from magworm_gym.identification.exploration import CHI_SQUARE_95, explore, threshold
+from magworm_gym.identification.exploration import explore
 from magworm_gym.identification.findings import Finding, findings
 from magworm_gym.identification.identifiability import Sensitivity, sensitivity
 from magworm_gym.identification.ledger import Ledger
+from magworm_gym.identification.limit import CHI_SQUARE_95
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.problem import Problem, scene_numbers
+from magworm_gym.identification.profiles import profiles
 from magworm_gym.identification.search import Evolution, NothingRunsError, Progress, search
 from magworm_gym.identification.targets import Outcome
 
 Floats = NDArray[np.float64]
 
 CANDIDATES = "candidates.npz"
+
+LEAST_NOISE = 1e-6
+"""Distance of the limit from the least loss that derivatives are still set against [1]."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,7 @@ class Identification:
         evolutions: The evolutions, best first.
         sensitivity: Derivatives at the best point.
         free: Combinations that the data leave free.
+        profiles: Least loss of each parameter's slices, see :func:`profiles`.
         scene: The base scene with the fitted values.
         left_out: Fitted paths that the base scene does not have, such as those of an experiment's drive.
     """
@@ -56,6 +62,7 @@ class Identification:
     evolutions: list[Evolution]
     sensitivity: Sensitivity
     free: list[FreeCombination]
+    profiles: Floats
     scene: Scene
     left_out: tuple[str, ...]
 
@@ -108,22 +115,30 @@ def _fitted(
     if resume and path is not None and path.exists():
         ledger.load()
     try:
-        evolutions = search(ledger.losses, evaluator.base_unit, problem.settings, progress)
+        evolutions = search(
+            ledger.losses, problem.limit, _starts(problem, evaluator), problem.settings, progress
+        )
     except NothingRunsError as error:
         refusal = evaluator.refusal(evaluator.base_unit)
         raise ProblemError(f"{error}; nearest to the base scene: {refusal}") from error
     axes = _sensitivity(problem, evaluator, ledger.units, ledger.known).axes
     units, known = explore(
-        ledger.losses, axes, ledger.units, ledger.known, problem.measurements, problem.settings, progress
+        ledger.losses, problem.limit, axes, ledger.units, ledger.known, problem.settings, progress
     )
     return _identification(problem, evaluator, evolutions, units, known)
+
+
+def _starts(problem: Problem, evaluator: Evaluator) -> Floats:
+    """Points of the cube (S, P) that are tried first: the base scene, then known robots."""
+    known = [] if problem.settings.blind else [problem.space.unit_of(start) for start in problem.starts]
+    return np.array([evaluator.base_unit, *known])
 
 
 def _identification(
     problem: Problem, evaluator: Evaluator, evolutions: list[Evolution], units: Floats, known: Floats
 ) -> Identification:
     best, loss = units[int(known.argmin())], float(known.min())
-    limit = threshold(loss, problem.measurements, len(problem.space))
+    limit = problem.limit(loss)
     sensed = _sensitivity(problem, evaluator, units, known)
     values = problem.space.scene_values(best)
     fitting = units[known <= limit]
@@ -140,6 +155,7 @@ def _identification(
         evolutions=evolutions,
         sensitivity=sensed,
         free=free_combinations(best, fitting),
+        profiles=profiles(units, known),
         scene=scene,
         left_out=left_out,
     )
@@ -148,7 +164,7 @@ def _identification(
 def _sensitivity(problem: Problem, evaluator: Evaluator, units: Floats, known: Floats) -> Sensitivity:
     """Derivatives at the best of all candidates, against the noise that the threshold stands for."""
     loss = float(known.min())
-    noise = np.sqrt((threshold(loss, problem.measurements, len(problem.space)) - loss) / CHI_SQUARE_95)
+    noise = np.sqrt(max(problem.limit(loss) - loss, LEAST_NOISE) / CHI_SQUARE_95)
     return sensitivity(evaluator.verdicts, units[int(known.argmin())], float(noise))
 
 

@@ -24,13 +24,13 @@ class Ledger:
 
     Args:
         path: The file, numpy's npz, written anew after each question; None keeps nothing.
-        losses: Gives the losses (C,) of points of the unit cube (C, P).
+        losses: See :data:`magworm_gym.identification.search.Losses`.
         dimension: Number of parameters P.
         fingerprint: Of the problem that the losses belong to.
     """
 
     def __init__(
-        self, path: Path | None, losses: Callable[[Floats], Floats], dimension: int, fingerprint: str
+        self, path: Path | None, losses: Callable[[Floats, Floats], Floats], dimension: int, fingerprint: str
     ) -> None:
         self._path, self._ask, self._fingerprint = path, losses, fingerprint
         self._units, self._losses = np.empty((0, dimension)), np.empty(0)
@@ -69,15 +69,19 @@ class Ledger:
         """Their losses (C,) [1]."""
         return self._losses[: self._used]
 
-    def losses(self, units: Floats) -> Floats:
+    def losses(self, units: Floats, bounds: Floats) -> Floats:
         """Losses (C,) of points of the unit cube (C, P); kept before it returns.
+
+        Args:
+            units: The points.
+            bounds: Losses (C,) beyond which they need not be exact.
 
         Raises:
             ProblemError: What was kept does not fit, so it was made by another version.
         """
         end = self._used + len(units)
         if len(self._losses) < end:
-            losses = self._ask(units)
+            losses = self._ask(units, bounds)
             self._units = np.concatenate([self._units[: self._used], units])
             self._losses = np.concatenate([self._losses[: self._used], losses])
             if self._path is not None:

@@ -47,12 +47,13 @@ def _target(table: Table, name: str, magnets: int) -> Target:
             raise ProblemError(f"{table.where} has no value; allowed: value, at_least or at_most")
         if low > high:
             raise table.refusal("at_least", low, f"a number up to at_most = {high:g}")
+    fitted = table.flag("fit", True)
     table.done()
-    return Target(name, Quantity(kind, magnet), low, high, tolerance)
+    return Target(name, Quantity(kind, magnet), low, high, tolerance, fitted)
 
 
 def read_comparison(table: Table, magnets: Mapping[str, int]) -> Comparison:
-    """Reads ``{ greater, less, by, tolerance }``.
+    """Reads ``{ greater, less, by, tolerance, fit }``.
 
     Args:
         table: The table.
@@ -63,8 +64,9 @@ def read_comparison(table: Table, magnets: Mapping[str, int]) -> Comparison:
     """
     greater, less = _measured(table, "greater", magnets), _measured(table, "less", magnets)
     by, tolerance = table.number("by", 0.0), table.number("tolerance", low=1e-12)
+    fitted = table.flag("fit", True)
     table.done()
-    return Comparison(greater, less, by, tolerance)
+    return Comparison(greater, less, by, tolerance, fitted)
 
 
 def _measured(table: Table, key: str, magnets: Mapping[str, int]) -> tuple[str, Quantity]:

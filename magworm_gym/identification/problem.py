@@ -2,8 +2,8 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from math import ceil
 from os import PathLike
 from pathlib import Path
@@ -12,11 +12,16 @@ from typing import Any
 from magworm_gym import __version__
 from magworm_gym._magworm import Scene, SceneError
 from magworm_gym.arguments import path_of
-from magworm_gym.identification.experiment import Experiment, edited_scene
+from magworm_gym.identification.claim_file import read_claim
+from magworm_gym.identification.claims import Claim
+from magworm_gym.identification.experiment import Experiment, Run, edited_scene
+from magworm_gym.identification.limit import threshold
 from magworm_gym.identification.measurements import read_comparison, read_film, read_targets
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.parameters import ParameterSpace, read_parameter
 from magworm_gym.identification.settings import SearchSettings, read_settings
+from magworm_gym.identification.sweep import Sweep
+from magworm_gym.identification.sweep_file import read_sweeps
 from magworm_gym.identification.table import Table, parse_toml, read_text
 from magworm_gym.identification.targets import Aim
 from magworm_gym.scene import load_scene
@@ -35,7 +40,9 @@ class Problem:
         fixed: Paths of the fixed values.
         space: The parameters.
         experiments: The experiments.
-        aims: What was measured.
+        sweeps: Robots at many speeds of the drive.
+        aims: What was measured, and what is only reported.
+        starts: Field values of known robots, tried first.
         sample_s: Time between two instants of a recording [s].
         settings: Settings of the search.
         fingerprint: Changes with anything that changes the result.
@@ -46,41 +53,83 @@ class Problem:
     fixed: tuple[str, ...]
     space: ParameterSpace
     experiments: tuple[Experiment, ...]
+    sweeps: tuple[Sweep, ...]
     aims: tuple[Aim, ...]
+    starts: tuple[dict[str, float], ...]
     sample_s: float
     settings: SearchSettings
     fingerprint: str
 
     @property
     def measurements(self) -> float:
-        """Number of independent measurements [1]."""
-        return sum(aim.weight for aim in self.aims)
+        """Number of independent measurements that are fitted [1]."""
+        return sum(aim.weight for aim in self.aims if aim.fitted)
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """Experiments and sweeps, in the order of the file: what comes first decides first."""
+        return (*self.experiments, *self.sweeps)
 
     @property
     def simulated_s(self) -> float:
-        """Simulated time of one candidate [s]."""
-        return sum(experiment.duration_s for experiment in self.experiments)
+        """Simulated time of one candidate that is run to its end [s]."""
+        needed = {source for aim in self.aims if aim.fitted for source in aim.sources}
+        return sum(run.simulated_s for run in self.runs if run.name in needed)
+
+    def limit(self, loss: float) -> float:
+        """Loss up to which a candidate fits about as well as one with the least loss [1]."""
+        if self.settings.fits_within is not None:
+            return self.settings.fits_within * loss
+        return threshold(loss, self.measurements, len(self.space))
 
 
-def read_problem(path: str | PathLike[str], search: Mapping[str, Any] | None = None) -> Problem:
+def read_problem(
+    path: str | PathLike[str], search: Mapping[str, Any] | None = None, without: Collection[str] = ()
+) -> Problem:
     """Reads a problem file.
 
     Args:
         path: The TOML file; files that it names are relative to its folder.
         search: Settings of the search that replace those of the file.
+        without: Groups of claims that are not fitted, only reported.
 
     Raises:
         ProblemError: A mistake in it or in a file that it names.
     """
     path = path_of("path", path)
-    entries = parse_toml(read_text(path, "problem file"), str(path))
+    entries = _entries(path)
     if search:
-        settings = entries.get("search", {})
-        entries["search"] = {**(settings if isinstance(settings, dict) else {}), **search}
+        entries = _merged(entries, {"search": dict(search)})
+    if without:
+        entries = {**entries, "without": sorted(without)}
     try:
         return make_problem(entries, path.parent)
     except ProblemError as error:
         raise ProblemError(f"{path}: {error}") from error
+
+
+def _entries(path: Path, most: int = 8) -> dict[str, Any]:
+    """What a file holds and the file that it is like: it adds to tables and replaces lists."""
+    entries = parse_toml(read_text(path, "problem file"), str(path))
+    like = entries.pop("like", None)
+    if like is None:
+        return entries
+    if not isinstance(like, str) or not most:
+        raise ProblemError(
+            f"{path}: like is {like!r}; allowed: another problem file that is not like this one"
+        )
+    return _merged(_entries(path.parent / like, most - 1), entries)
+
+
+def _merged(entries: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
+    both = {
+        key: {**entries[key], **value} for key, value in others.items() if _tables(entries.get(key), value)
+    }
+    return {**entries, **others, **both}
+
+
+def _tables(*values: object) -> bool:
+    return all(isinstance(value, dict) for value in values)
 
 
 def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
@@ -98,17 +147,34 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     fixed = table.mapping("values")
     base = edited_scene(scene, fixed, "values")
     space = _space(table)
-    experiments, aims = _experiments(table, base, folder)
+    experiments, aims = _experiments(table, base, space, folder)
+    sweeps = _sweeps(table, base, {experiment.name for experiment in experiments})
+    if not experiments and not sweeps:
+        raise ProblemError("experiment is missing; allowed: at least one [[experiment]] or one [[sweep]]")
     names = {experiment.name: experiment.scene.magnets for experiment in experiments}
     aims += [read_comparison(each, names) for each in table.tables("comparison")]
-    sample_s = _sample(table, experiments)
+    aims += _claims(table, sweeps)
+    starts = tuple(_start(each) for each in table.tables("start"))
+    runs: list[Run] = [*experiments, *sweeps]
+    sample_s = _sample(table, runs)
     settings = read_settings(Table(table.take("search", {}), "search"))
     table.done()
-    if not aims:
-        raise ProblemError("no experiment has targets or tracks; allowed: at least one of them")
-    _check_paths(space, experiments)
-    mark = _fingerprint(entries, base, experiments, aims)
-    return Problem(name, base, tuple(fixed), space, tuple(experiments), tuple(aims), sample_s, settings, mark)
+    if not any(aim.fitted for aim in aims):
+        raise ProblemError("nothing is fitted; allowed: at least one target, track, comparison or claim")
+    _check_paths(space, runs)
+    return Problem(
+        base_name=name,
+        base=base,
+        fixed=tuple(fixed),
+        space=space,
+        experiments=tuple(experiments),
+        sweeps=tuple(sweeps),
+        aims=tuple(aims),
+        starts=starts,
+        sample_s=sample_s,
+        settings=settings,
+        fingerprint=_fingerprint(entries, base, runs, aims),
+    )
 
 
 def _base(table: Table, folder: Path) -> tuple[str, Scene]:
@@ -127,7 +193,9 @@ def _space(table: Table) -> ParameterSpace:
     )
 
 
-def _experiments(table: Table, base: Scene, folder: Path) -> tuple[list[Experiment], list[Aim]]:
+def _experiments(
+    table: Table, base: Scene, space: ParameterSpace, folder: Path
+) -> tuple[list[Experiment], list[Aim]]:
     experiments: list[Experiment] = []
     aims: list[Aim] = []
     for each in table.tables("experiment"):
@@ -149,24 +217,67 @@ def _experiments(table: Table, base: Scene, folder: Path) -> tuple[list[Experime
                 f"{each.where}: the drive is a controlled one and would stand still; allowed: values with "
                 '"drive.motion" of kind "constant" or "waypoints", or drive'
             )
-        experiments.append(Experiment(name, duration_s, scene, frozenset(values)))
-    if not experiments:
-        raise ProblemError("experiment is missing; allowed: at least one [[experiment]]")
+        experiments.append(Experiment(name, duration_s, scene, _known(values, scene, space)))
     return experiments, aims
 
 
-def _sample(table: Table, experiments: list[Experiment]) -> float:
-    steps = [_scene_value(experiment.scene, "solver.step_s") or 1e-3 for experiment in experiments]
+def _known(values: dict[str, Any], scene: Scene, space: ParameterSpace) -> frozenset[str]:
+    """Paths that values set, also those of parameters within a table that leaves them out."""
+    numbers = scene_numbers(scene)
+    left_out = {
+        parameter.path
+        for parameter in space.parameters
+        if parameter.path not in numbers and any(parameter.path.startswith(f"{path}.") for path in values)
+    }
+    return frozenset(values) | left_out
+
+
+def _sweeps(table: Table, base: Scene, taken: set[str]) -> list[Sweep]:
+    sweeps: list[Sweep] = []
+    for each in table.tables("sweep"):
+        read = read_sweeps(each, base)
+        for sweep in read:
+            if sweep.name in taken:
+                raise each.refusal("name", sweep.name, "a name that no other run has")
+        taken |= {sweep.name for sweep in read}
+        sweeps += read
+    return sweeps
+
+
+def _claims(table: Table, sweeps: list[Sweep]) -> list[Claim]:
+    """Claims; those of a group that is left out are only reported."""
+    claims = [read_claim(each, {sweep.name: sweep for sweep in sweeps}) for each in table.tables("claim")]
+    groups = sorted({claim.group for claim in claims if claim.group})
+    without = table.take("without", [])
+    if not isinstance(without, list) or not set(without) <= set(groups):
+        raise table.refusal(
+            "without", without, f"a list of groups of claims, of {', '.join(groups) or 'none'}"
+        )
+    return [replace(claim, fitted=claim.fitted and claim.group not in without) for claim in claims]
+
+
+def _start(table: Table) -> dict[str, float]:
+    """Field values of a known robot."""
+    values = table.mapping("values")
+    table.done()
+    for path, value in values.items():
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ProblemError(f"{table.place('values')}.{path} is {value!r}; allowed: a number")
+    return {path: float(value) for path, value in values.items()}
+
+
+def _sample(table: Table, runs: list[Run]) -> float:
+    steps = [_scene_value(run.scene, "solver.step_s") or 1e-3 for run in runs]
     longest = max(steps)
     usual = longest * max(1, ceil(LEAST_SAMPLE_S / longest - 1e-6))
     sample_s = table.number("sample_s", usual, low=1e-7, high=1.0)
-    for experiment, step_s in zip(experiments, steps, strict=True):
+    for run, step_s in zip(runs, steps, strict=True):
         if not _whole(sample_s / step_s):
-            allowed = f"a whole number of solver steps of {step_s:g} s, as in experiment {experiment.name!r}"
+            allowed = f"a whole number of solver steps of {step_s:g} s, as in {run.name!r}"
             raise table.refusal("sample_s", sample_s, allowed)
-        if not _whole(experiment.duration_s / sample_s):
+        if isinstance(run, Experiment) and not _whole(run.duration_s / sample_s):
             raise ProblemError(
-                f"duration_s of experiment {experiment.name!r} is {experiment.duration_s:g}; "
+                f"duration_s of experiment {run.name!r} is {run.duration_s:g}; "
                 f"allowed: a whole number of times sample_s = {sample_s:g}"
             )
     return sample_s
@@ -176,26 +287,26 @@ def _whole(ratio: float) -> bool:
     return round(ratio) >= 1 and abs(ratio - round(ratio)) < 1e-6 * max(1.0, ratio)
 
 
-def _check_paths(space: ParameterSpace, experiments: list[Experiment]) -> None:
-    """Refuses a parameter that is no number of the scene or that every experiment sets itself."""
+def _check_paths(space: ParameterSpace, runs: list[Run]) -> None:
+    """Refuses a parameter that is no number of the scene or that every run sets itself."""
     for parameter in space.parameters:
-        fitted = [experiment for experiment in experiments if parameter.path not in experiment.known]
+        fitted = [run for run in runs if parameter.path not in run.known]
         if not fitted:
             raise ProblemError(
                 f"parameters.{parameter.path} is set by the values of every experiment; "
                 "allowed: a field that at least one of them leaves open"
             )
-        for experiment in experiments:
-            if parameter.times in experiment.known and parameter.path not in experiment.known:
+        for run in runs:
+            if parameter.times in run.known and parameter.path not in run.known:
                 raise ProblemError(
-                    f"experiment {experiment.name!r} sets {parameter.times} but leaves {parameter.path} to a "
+                    f"experiment {run.name!r} sets {parameter.times} but leaves {parameter.path} to a "
                     "ratio of it; allowed: both or none of them"
                 )
-        for experiment in fitted:
-            if _scene_value(experiment.scene, parameter.path) is None:
+        for run in fitted:
+            if _scene_value(run.scene, parameter.path) is None:
                 raise ProblemError(
                     f"parameters.{parameter.path} is no number in the scene of experiment "
-                    f"{experiment.name!r}; allowed: the path of one, such as material.youngs_modulus_pa"
+                    f"{run.name!r}; allowed: the path of one, such as material.youngs_modulus_pa"
                 )
 
 
@@ -218,12 +329,10 @@ def scene_numbers(scene: Scene) -> dict[str, float]:
     return numbers
 
 
-def _fingerprint(
-    entries: Mapping[str, Any], base: Scene, experiments: list[Experiment], aims: list[Aim]
-) -> str:
+def _fingerprint(entries: Mapping[str, Any], base: Scene, runs: list[Run], aims: list[Aim]) -> str:
     """Digest of everything that the result depends on, files included."""
     digest = hashlib.sha256(json.dumps([__version__, entries], sort_keys=True, default=str).encode())
-    for scene in (base, *(experiment.scene for experiment in experiments)):
+    for scene in (base, *(run.scene for run in runs)):
         digest.update(scene.to_toml().encode())
     for aim in aims:
         digest.update(repr(aim).encode())

@@ -10,10 +10,12 @@ from magworm_gym import __version__
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.combinations import in_words
+from magworm_gym.identification.evaluation import BROKEN
 from magworm_gym.identification.findings import Finding
 from magworm_gym.identification.identifiability import STEPS
 from magworm_gym.identification.identify import Identification
 from magworm_gym.identification.scene_file import commented_scene
+from magworm_gym.identification.targets import Outcome
 
 MOST_DIRECTIONS = 4
 """Most weak directions that are written out."""
@@ -75,7 +77,12 @@ def as_markdown(found: Identification) -> str:
             "",
             "## Targets",
             "",
-            *_target_table(found),
+            *_target_table([outcome for outcome in found.outcomes if outcome.fitted]),
+            "",
+            *_held_out(found),
+            "## Profiles",
+            "",
+            *_profile_table(found),
             "",
             "## Combinations",
             "",
@@ -92,15 +99,16 @@ def as_markdown(found: Identification) -> str:
 def _summary(found: Identification) -> list[str]:
     problem = found.problem
     said = [
-        f"Base: `{problem.base_name}`. Parameters: {len(problem.space)}, experiments: "
-        f"{len(problem.experiments)}, independent measurements: {problem.measurements:.0f}. "
-        f"Simulated: {found.candidates} candidates, {found.candidates * problem.simulated_s:.0f} s. "
+        f"Base: `{problem.base_name}`. Parameters: {len(problem.space)}, experiments and sweeps: "
+        f"{len(problem.runs)}, independent measurements: {problem.measurements:.0f}. "
+        f"Simulated: {found.candidates} candidates, at most {found.candidates * problem.simulated_s:.0f} s. "
         f"Loss {found.loss:.4g}; magworm-gym {__version__}, seed {problem.settings.seed}.",
     ]
     for verdict in ("not identifiable", "weakly identified"):
         labels = [f"`{f.parameter.label}`" for f in found.findings if f.verdict == verdict]
         if labels:
             said += ["", f"**{verdict.capitalize()} from these data: {', '.join(labels)}.**"]
+    said += ["", _met(found)]
     if len(problem.space) > problem.measurements:
         said += ["", "**There are more parameters than measurements.**"]
     if found.misfit > MISFIT:
@@ -141,18 +149,56 @@ def _part(value: float) -> str:
     return "–" if np.isnan(value) else f"{value:.2g}" if value < 10.0 else "over 10"
 
 
-def _target_table(found: Identification) -> list[str]:
-    rows = [
-        "| target | wanted | model | error | in tolerances | share of loss |",
-        "|---|---|---|---|---|---|",
+def _met(found: Identification) -> str:
+    """How many of the targets are met."""
+    fitted = [outcome.met for outcome in found.outcomes if outcome.fitted]
+    held = [outcome.met for outcome in found.outcomes if not outcome.fitted]
+    others = f"; of {len(held)} held out {sum(held)}" if held else ""
+    return f"Of {len(fitted)} fitted targets {sum(fitted)} are met{others}."
+
+
+def _held_out(found: Identification) -> list[str]:
+    """What was not fitted, what is not met first."""
+    held = sorted((each for each in found.outcomes if not each.fitted), key=lambda outcome: outcome.met)
+    if not held:
+        return []
+    return ["## Held out", "", "Never part of the loss.", "", *_target_table(held), ""]
+
+
+def _profile_table(found: Identification) -> list[str]:
+    """Least loss in each slice of each parameter."""
+    slices = found.profiles.shape[1]
+    ends = " | ".join(f"to {(at + 1) / slices:.0%}" for at in range(slices))
+    rows = [f"| parameter | {ends} |", "|" + "---|" * (slices + 1)]
+    for parameter, least in zip(found.problem.space.parameters, found.profiles, strict=True):
+        cells = [_profile_cell(loss, found.limit) for loss in least]
+        rows.append(f"| `{parameter.label}` | {' | '.join(cells)} |")
+    rows += [
+        "",
+        "The least loss of all candidates in each tenth of a parameter's bounds, the other parameters free; "
+        "bold: fits about as well as the best. Losses beyond that may be lower bounds.",
     ]
-    for outcome in found.outcomes:
+    return rows
+
+
+def _profile_cell(loss: float, limit: float) -> str:
+    if loss >= BROKEN:
+        return "–"
+    return f"**{loss:.4g}**" if loss <= limit else f"{loss:.3g}"
+
+
+def _target_table(outcomes: list[Outcome]) -> list[str]:
+    rows = [
+        "| target | wanted | model | error | in tolerances | share of loss | met |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for outcome in outcomes:
         percent = "–" if outcome.error_percent is None else f"{outcome.error_percent:+.2f} %"
         rows.append(
             f"| {outcome.name} | {outcome.target} | {outcome.model:.5g} | {percent} | "
-            f"{outcome.error_tolerances:+.2f} | {outcome.loss:.3g} |"
+            f"{outcome.error_tolerances:+.2f} | {outcome.loss:.3g} | {'yes' if outcome.met else '**no**'} |"
         )
-    for outcome in found.outcomes:
+    for outcome in outcomes:
         if outcome.remark:
             rows += ["", f"{outcome.name.split(',')[0]}: {outcome.remark}."]
     return rows
@@ -215,11 +261,12 @@ def as_json(found: Identification) -> dict[str, Any]:
         "misfit": found.misfit,
         "measurements": found.problem.measurements,
         "candidates": found.candidates,
-        "simulated_s": found.candidates * found.problem.simulated_s,
+        "simulated_s_at_most": found.candidates * found.problem.simulated_s,
         "values": found.values,
         "not_in_scene": list(found.left_out),
         "parameters": [_finding_json(finding) for finding in found.findings],
         "targets": [vars(outcome) for outcome in found.outcomes],
+        "profiles": found.profiles.tolist(),
         "restarts": [
             {
                 "loss": evolution.loss,

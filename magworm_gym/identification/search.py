@@ -2,7 +2,8 @@
 
 Stick and slip make the loss jump: gradients mislead, and a single evolution may end in a groove that
 is not the deepest. So candidates are scattered first, several evolutions begin at the best of them, and
-all candidates of all evolutions run side by side.
+all candidates of all evolutions run side by side. They race: the worse half of the evolutions ends now and
+then, and a candidate ends as soon as its loss is beyond what can matter.
 """
 
 from collections.abc import Callable
@@ -17,12 +18,22 @@ from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.settings import SearchSettings
 
 Floats = NDArray[np.float64]
-Losses = Callable[[Floats], Floats]
+Losses = Callable[[Floats, Floats], Floats]
+"""Gives the losses (C,) of points of the unit cube (C, P), exact up to bounds (C,); beyond its bound a loss
+is only known to be greater than that."""
+Limit = Callable[[float], float]
+"""Gives the loss up to which a candidate fits about as well as the best from the least loss."""
 Progress = Callable[[str, int, int, float], None]
 """Called with the stage, what of it is done, how much it is at most, and the best loss."""
 
 APART = 0.15
 """Distance in the unit cube that beginnings of evolutions keep where they can [1]."""
+
+ROUND = 64
+"""Scattered candidates that run at a time."""
+
+RUNNERS_UP = 4
+"""Scattered candidates for each evolution whose losses are known exactly."""
 
 LEAST_PROGRESS = 1e-3
 """Relative change of the best loss that counts as progress [1]."""
@@ -44,6 +55,7 @@ class Evolution:
         loss: The loss there [1].
         idle: Generations since the last progress.
         generations: Generations so far.
+        parents: Greatest loss of the parents of the last generation, its better half [1].
         ended: Why it ended, in words; empty while it goes on.
     """
 
@@ -52,6 +64,7 @@ class Evolution:
     loss: float = np.inf
     idle: int = 0
     generations: int = 0
+    parents: float = np.inf
     ended: str = field(default="")
 
     def tell(self, units: Floats, losses: Floats, settings: SearchSettings) -> None:
@@ -59,6 +72,7 @@ class Evolution:
         self.strategy.tell(list(zip(units, losses.tolist(), strict=True)))
         self.generations += 1
         least = float(losses.min())
+        self.parents = float(np.sort(losses)[(len(losses) - 1) // 2])
         progress = self.generations == 1 or least < self.loss - LEAST_PROGRESS * abs(self.loss)
         self.idle = 0 if progress else self.idle + 1
         if least < self.loss:
@@ -70,13 +84,18 @@ class Evolution:
 
 
 def search(
-    losses: Losses, base: Floats, settings: SearchSettings, progress: Progress | None = None
+    losses: Losses,
+    limit: Limit,
+    starts: Floats,
+    settings: SearchSettings,
+    progress: Progress | None = None,
 ) -> list[Evolution]:
     """Searches the least loss.
 
     Args:
-        losses: Gives the losses (C,) of points of the unit cube (C, P).
-        base: Point of the base scene (P,), tried first.
+        losses: Gives the losses.
+        limit: Losses up to it are known exactly, whatever races.
+        starts: Points (S, P) that are tried first.
         settings: Settings.
         progress: Told after each batch.
 
@@ -89,8 +108,8 @@ def search(
     """
     strategy = _strategy_maker(settings)
     generator = np.random.default_rng([settings.seed, 1])
-    scatter = np.vstack([base, latin_hypercube(settings.scatter, len(base), generator)])
-    scattered = losses(scatter)
+    scatter = np.vstack([starts, latin_hypercube(settings.scatter, starts.shape[1], generator)])
+    scattered = _scattered(losses, limit, scatter, RUNNERS_UP * settings.restarts)
     if scattered.min() >= BROKEN:
         raise NothingRunsError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
@@ -104,15 +123,37 @@ def search(
         if not active:
             break
         asked = np.array([e.strategy.ask() for e in active for _ in range(settings.population)])
-        blocks = losses(asked).reshape(len(active), -1)
+        bounds = np.repeat([max(e.parents, limit(best)) for e in active], settings.population)
+        blocks = losses(asked, bounds).reshape(len(active), -1)
         for evolution, units, block in zip(active, np.split(asked, len(active)), blocks, strict=True):
             evolution.tell(units, block, settings)
         best = min(best, float(blocks.min()))
         if progress is not None:
             progress("search", generation + 1, settings.generations, best)
+        if generation + 1 in settings.halve_after:
+            _end_worse_half(evolutions)
     for evolution in evolutions:
         evolution.ended = evolution.ended or "out of generations"
     return sorted(evolutions, key=lambda evolution: evolution.loss)
+
+
+def _scattered(losses: Losses, limit: Limit, scatter: Floats, exact: int) -> Floats:
+    """Losses (C,) of scattered points (C, P), at least so many of the least ones exactly."""
+    known = np.empty(0)
+    while len(known) < len(scatter):
+        bound = np.inf
+        if len(known) >= exact:
+            bound = max(float(np.sort(known)[exact - 1]), limit(float(known.min())))
+        points = scatter[len(known) : len(known) + ROUND]
+        known = np.append(known, losses(points, np.full(len(points), bound)))
+    return known
+
+
+def _end_worse_half(evolutions: list[Evolution]) -> None:
+    """Ends the worse half of the evolutions that go on."""
+    active = sorted((e for e in evolutions if not e.ended), key=lambda evolution: evolution.loss)
+    for evolution in active[(len(active) + 1) // 2 :]:
+        evolution.ended = "dropped: others fitted better"
 
 
 def latin_hypercube(count: int, dimension: int, generator: np.random.Generator) -> Floats:

@@ -100,6 +100,13 @@ class Table:
             raise self.refusal(key, value, f"a whole number from {low} to {high}")
         return value
 
+    def flag(self, key: str, default: bool) -> bool:
+        """Takes true or false."""
+        value = self.take(key, default)
+        if not isinstance(value, bool):
+            raise self.refusal(key, value, "true or false")
+        return value
+
     def text(self, key: str, default: str | None = None) -> str:
         """Takes a text that is not empty."""
         value = self.take(key, default)

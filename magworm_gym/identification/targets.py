@@ -13,7 +13,7 @@ from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
 Recordings = Mapping[str, Recording]
-"""Name of an experiment → what it gave."""
+"""Name of an experiment, or of a robot of a sweep → what it gave."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,8 @@ class Outcome:
         error_tolerances: Deviation in tolerances [1]; 0 where bounds are kept.
         loss: Its share of the loss [1].
         remark: More, in words; may be empty.
+        met: Whether it counts as met.
+        fitted: Whether it is part of the loss; else it is only reported.
     """
 
     name: str
@@ -37,14 +39,28 @@ class Outcome:
     error_tolerances: float
     loss: float
     remark: str = ""
+    met: bool = True
+    fitted: bool = True
 
 
 class Aim(Protocol):
     """Something that recordings are compared with."""
 
     @property
+    def name(self) -> str:
+        """What it is called in a report."""
+
+    @property
     def weight(self) -> float:
         """Number of independent measurements that it counts for [1]."""
+
+    @property
+    def fitted(self) -> bool:
+        """Whether it is part of the loss; else it is only reported."""
+
+    @property
+    def sources(self) -> frozenset[str]:
+        """Names of the experiments and sweeps whose recordings it needs."""
 
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (R,) [1]; their squares add up to the loss."""
@@ -63,6 +79,7 @@ class Target:
         low: Least value allowed, in the unit of the quantity; equal to ``high`` for a value.
         high: Greatest value allowed.
         tolerance: Deviation that counts as one, in the unit of the quantity.
+        fitted: Whether it is part of the loss.
     """
 
     experiment: str
@@ -70,7 +87,18 @@ class Target:
     low: float
     high: float
     tolerance: float
+    fitted: bool = True
     weight: float = 1.0
+
+    @property
+    def sources(self) -> frozenset[str]:
+        """Name of its experiment."""
+        return frozenset({self.experiment})
+
+    @property
+    def name(self) -> str:
+        """Its experiment and quantity."""
+        return f"{self.experiment}: {self.quantity}"
 
     def deviation(self, recordings: Recordings) -> float:
         """How far outside of the bounds the model is, in tolerances [1]."""
@@ -88,7 +116,16 @@ class Target:
         if self.low == self.high and self.low != 0.0:
             percent = 100.0 * (model - self.low) / abs(self.low)
         loss = float(np.square(self.residuals(recordings)).sum())
-        return Outcome(f"{self.experiment}: {self.quantity}", self._words(), model, percent, deviation, loss)
+        return Outcome(
+            name=self.name,
+            target=self._words(),
+            model=model,
+            error_percent=percent,
+            error_tolerances=deviation,
+            loss=loss,
+            met=abs(deviation) <= (1.0 if self.low == self.high else 0.0),
+            fitted=self.fitted,
+        )
 
     def _words(self) -> str:
         if self.low == self.high:
@@ -109,13 +146,25 @@ class Comparison:
         less: Experiment and quantity that is to be the smaller one.
         by: By how much at least, in the unit of the quantities.
         tolerance: Deviation that counts as one, in the unit of the quantities.
+        fitted: Whether it is part of the loss.
     """
 
     greater: tuple[str, Quantity]
     less: tuple[str, Quantity]
     by: float
     tolerance: float
+    fitted: bool = True
     weight: float = 1.0
+
+    @property
+    def sources(self) -> frozenset[str]:
+        """Names of both experiments."""
+        return frozenset({self.greater[0], self.less[0]})
+
+    @property
+    def name(self) -> str:
+        """Both quantities."""
+        return f"{self.greater[0]}: {self.greater[1]} minus {self.less[0]}: {self.less[1]}"
 
     def margin(self, recordings: Recordings) -> float:
         """Greater minus smaller, in the unit of the quantities."""
@@ -132,8 +181,15 @@ class Comparison:
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met; the model's value is the margin."""
-        (first, great), (second, small) = self.greater, self.less
-        name = f"{first}: {great} minus {second}: {small}"
         loss = float(np.square(self.residuals(recordings)).sum())
         deviation = self.deviation(recordings)
-        return Outcome(name, f"at least {self.by:g}", self.margin(recordings), None, deviation, loss)
+        return Outcome(
+            name=self.name,
+            target=f"at least {self.by:g}",
+            model=self.margin(recordings),
+            error_percent=None,
+            error_tolerances=deviation,
+            loss=loss,
+            met=deviation == 0.0,
+            fitted=self.fitted,
+        )

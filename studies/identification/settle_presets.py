@@ -116,9 +116,10 @@ def restarts_of(problem: Problem, report: dict[str, Any]) -> list[dict[str, Any]
 
 def refined_losses(problem: Problem, units: NDArray[np.float64]) -> NDArray[np.float64]:
     """Losses (C, 1 + R) of candidates (C, P) as they were identified and with each of R refinements."""
-    columns = [Evaluator(problem).losses(units)]
+    bounds = np.full(len(units), np.inf)
+    columns = [Evaluator(problem).losses(units, bounds)]
     for refinement in REFINEMENTS:
-        columns.append(Evaluator(refined(problem, refinement)).losses(units))
+        columns.append(Evaluator(refined(problem, refinement)).losses(units, bounds))
         print(f"{refinement}: least loss {columns[-1].min():.3g}")
     return np.stack(columns, axis=1)
 

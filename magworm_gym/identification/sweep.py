@@ -1,0 +1,178 @@
+"""A robot at many speeds of the drive, side by side in the lanes of a batch.
+
+Speeds and what else differs between its robots are factors of one scene, so they share its model: that costs
+a fifth of scenes of their own. Robots are sorted by speed, since lanes wait for the slowest of them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym._magworm import Batch, Scene
+from magworm_gym.identification.experiment import fitted_scene
+from magworm_gym.recording import Recording
+
+Floats = NDArray[np.float64]
+
+LANES = 8
+"""Robots that run side by side: the lanes of a block."""
+
+SPEED = "drive_speed"
+"""Name of the factor of the drive's speed."""
+
+
+@dataclass(frozen=True)
+class Passes:
+    """Passes of a belt that are measured.
+
+    Attributes:
+        pitch_m: Distance between its magnets [m].
+        first: Passes that are left out at the beginning.
+        count: Passes that are measured.
+    """
+
+    pitch_m: float
+    first: int
+    count: int
+
+
+@dataclass(frozen=True)
+class Lane:
+    """One robot of a sweep.
+
+    Attributes:
+        name: Name of its recording.
+        speed_m_s: Speed of its drive, positive [m/s].
+        factors: Factors of its scene's values by name, the speed's left out.
+    """
+
+    name: str
+    speed_m_s: float
+    factors: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A robot that is passed by a drive at many speeds, each under a few slightly different conditions.
+
+    Attributes:
+        name: Its name.
+        scene: The scene with a drive in constant motion, before parameters are set.
+        speeds_m_s: Speeds of the drive (S,), rising [m/s].
+        conditions: Factors of the scene's values by name (C,); results are averaged over them.
+        backward: Whether the drive moves from tail to head.
+        ahead_m: How far ahead of the end that it meets first the drive starts [m].
+        beyond_m: How far beyond the other end a single drive magnet ends [m].
+        belt: Passes that are measured where the drive is a belt.
+        known: Paths that it sets itself; a parameter of the same path is not fitted here.
+    """
+
+    name: str
+    scene: Scene
+    speeds_m_s: tuple[float, ...]
+    conditions: tuple[Mapping[str, float], ...] = ({},)
+    backward: bool = False
+    ahead_m: float = 0.05
+    beyond_m: float = 0.05
+    belt: Passes | None = None
+    known: frozenset[str] = field(default_factory=frozenset)
+
+    @cached_property
+    def lanes(self) -> list[list[Lane]]:
+        """Its robots, by speed (S) and condition (C)."""
+        return [
+            [
+                Lane(
+                    f"{self.name}/{place}/{at}",
+                    speed_m_s * condition.get(SPEED, 1.0),
+                    {name: factor for name, factor in condition.items() if name != SPEED},
+                )
+                for at, condition in enumerate(self.conditions)
+            ]
+            for place, speed_m_s in enumerate(self.speeds_m_s)
+        ]
+
+    @property
+    def simulated_s(self) -> float:
+        """Simulated time of a candidate, all its robots together, before parameters are set [s]."""
+        way_m = self._ways_m(self.scene)[-1]
+        return sum(way_m / lane.speed_m_s for lanes in self.lanes for lane in lanes)
+
+    def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
+        """Every robot from the beginning to the end of the passes that are measured, by its lane's name.
+
+        Args:
+            values: Path of a field → its value.
+            sample_s: Time between two instants [s].
+
+        Raises:
+            SceneError: The scene cannot be simulated.
+        """
+        scene = fitted_scene(self, values)
+        ahead_m = scene.body_length_m + self.ahead_m if self.backward else -self.ahead_m
+        scene = scene.with_values({"drive.motion.x_m": ahead_m, "control.step_s": sample_s})
+        lanes = sorted((lane for row in self.lanes for lane in row), key=lambda lane: lane.speed_m_s)
+        recordings: dict[str, Recording] = {}
+        for first in range(0, len(lanes), LANES):
+            recordings.update(self._side_by_side(scene, lanes[first : first + LANES], sample_s))
+        return recordings
+
+    def _side_by_side(self, scene: Scene, lanes: list[Lane], sample_s: float) -> dict[str, Recording]:
+        first_m, last_m = self._ways_m(scene)
+        batch = _batch(scene, lanes, self.speeds_m_s[0])
+        samples = ceil(last_m / lanes[0].speed_m_s / sample_s)
+        start = batch.magnet_poses()[None]
+        unused = np.zeros((samples, len(lanes), sum(each.size for each in batch.action_specification)))
+        seen = batch.rollout(unused, magnet_poses=True)
+        assert seen.magnet_poses is not None, "they were asked for"
+        poses = np.concatenate([start, seen.magnet_poses])
+        present = np.ones(scene.magnets, np.bool_)
+        present[list(scene.removed)] = False
+        return {
+            lane.name: _recording(
+                poses[:, at],
+                present,
+                (round(first_m / lane.speed_m_s / sample_s), ceil(last_m / lane.speed_m_s / sample_s)),
+                sample_s,
+                int(seen.status[-1, at]),
+            )
+            for at, lane in enumerate(lanes)
+        }
+
+    def _ways_m(self, scene: Scene) -> tuple[float, float]:
+        """Way of the drive when what is measured begins, and when it ends [m]."""
+        if self.belt is None:
+            return 0.0, self.ahead_m + scene.body_length_m + self.beyond_m
+        middle_m = self.ahead_m + 0.5 * scene.body_length_m - 0.5 * self.belt.pitch_m
+        first_m = max(0.0, middle_m + self.belt.first * self.belt.pitch_m)
+        return first_m, middle_m + (self.belt.first + self.belt.count) * self.belt.pitch_m
+
+
+def _batch(scene: Scene, lanes: list[Lane], scene_speed_m_s: float) -> Batch:
+    """A batch at its start with the speeds and factors of its lanes."""
+    count = len(lanes)
+    batch = Batch(scene, count, threads=1)
+    batch.set_parameter(SPEED, [lane.speed_m_s / scene_speed_m_s for lane in lanes])
+    for name in lanes[0].factors:
+        batch.set_parameter(name, [lane.factors[name] for lane in lanes])
+    nought = np.zeros(count, np.uint64)
+    batch.reset(np.ones(count, np.bool_), nought, nought)
+    return batch
+
+
+def _recording(
+    poses: Floats, present: NDArray[np.bool_], span: tuple[int, int], sample_s: float, status: int
+) -> Recording:
+    poses = poses[span[0] : span[1] + 1]
+    return Recording(
+        time_s=sample_s * np.arange(len(poses), dtype=np.float64),
+        nodes=np.empty((len(poses), 0, 2)),
+        magnet_poses=poses,
+        present=present,
+        drive_positions=np.empty((len(poses), 0, 2)),
+        broken=Batch.status_text(status) if status else None,
+    )
