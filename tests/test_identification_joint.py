@@ -1,5 +1,6 @@
 """Fitting many robots that share parameters to claims about their curves."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,9 @@ import pytest
 
 from magworm_gym import Recording, Scene, record_scenes
 from magworm_gym.identification import ProblemError, identify, make_problem, read_problem, write_results
+from magworm_gym.identification.alternatives import alternatives
 from magworm_gym.identification.claims import KINDS, Claim, Curve, curve_of
+from magworm_gym.identification.ensemble import alike, coverage, farthest_first
 from magworm_gym.identification.evaluation import BROKEN, Evaluator
 from magworm_gym.identification.profiles import profiles
 from magworm_gym.identification.quantities import Quantity
@@ -331,6 +334,55 @@ def test_profiles_hold_the_least_loss_of_each_slice():
     assert np.isinf(least[0, 1])
 
 
+def test_what_a_target_that_is_not_met_would_cost_is_said(tmp_path):
+    far = value("three.stride_m", 0.4, 9e-3)
+    least = {"name": "some", "kind": "at_least", "curve": "three.stride_m", "over_m_s": [0.2, 0.4]}
+    low, high = {**least, "value": 1e-3, "scale": 1e-4}, {**least, "name": "much", "value": 1.0, "scale": 1.0}
+    found = identify(problem([far, low, high]))
+    told = {each.target: each for each in found.alternatives}
+    assert far["name"] in told and "much" in told
+    assert told["much"].values is None
+    write_results(found, tmp_path)
+    assert "none of " in (tmp_path / "report.md").read_text()
+    for alternative in told.values():
+        if alternative.values is not None:
+            assert alternative.loss >= found.loss
+            again = Evaluator(found.problem).outcomes(found.problem.space.unit_of(alternative.values))
+            assert [each.name for each in again if not each.met] == list(alternative.missed)
+
+
+def test_the_best_candidate_that_meets_a_target_is_found():
+    made = problem([value("three.stride_m", 0.4, 3e-3), value("four.stride_m", 0.4, 3e-3)])
+    evaluator = Evaluator(made)
+    units = np.random.default_rng(3).random((24, 2))
+    losses, shares = evaluator.judged(units, np.full(24, np.inf))
+    assert shares.sum(axis=1) == pytest.approx(losses)
+    worst = int(np.nanargmax(np.where(shares[:, 1] <= made.fitted[1].allowance, losses, np.nan)))
+    outcomes = [
+        replace(each, met=each.name != made.fitted[1].name) for each in evaluator.outcomes(units[worst])
+    ]
+    (found,) = alternatives(evaluator, outcomes, units, losses, shares)
+    meeting = losses[shares[:, 1] <= made.fitted[1].allowance]
+    assert found.target == made.fitted[1].name
+    assert found.loss == pytest.approx(meeting.min())
+    assert found.target not in found.missed
+
+
+def test_robots_of_an_ensemble_are_as_unlike_as_those_before_allow():
+    pools = [np.array([[0.0, 0.0]]), np.array([[0.1, 0.0], [1.0, 0.0], [0.5, 0.0]]), np.array([[0.9, 0.0]])]
+    asked = []
+
+    def accept(number, place):
+        asked.append((number, place))
+        return number < 2 and (number, place) != (1, 1)
+
+    assert farthest_first(pools, np.ones(2), accept, tries=3) == [0, 2, None]
+    assert asked == [(0, 0), (1, 1), (1, 2), (2, 0)]
+    robots = np.array([[0.0, 0.0], [0.05, 1.0], [1.0, 0.5]])
+    assert coverage(robots, np.zeros(2), np.full(2, 2.0)) == pytest.approx([0.5, 0.5])
+    assert alike(robots, np.full(2, 0.1), 2) == [(0, 1)]
+
+
 # Files
 
 
@@ -339,7 +391,7 @@ def test_the_joint_problem_fits_the_filmed_pass_and_curves_of_three_and_five_onl
     fitted = [aim for aim in made.aims if aim.fitted]
     assert {source for aim in fitted for source in aim.sources} == {"film", "three", "five"}
     assert made.simulated_s < sum(run.simulated_s for run in made.runs)
-    fast = read_problem(JOINT, without=["three, fast"])
+    fast = read_problem(JOINT, without=["three-fast"])
     assert fast.measurements == made.measurements - 1
     assert fast.fingerprint != made.fingerprint
     assert all(

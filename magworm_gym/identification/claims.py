@@ -108,6 +108,11 @@ class Claim:
         """Names of the sweeps that it needs."""
         return frozenset(curve.sweep for row in (*self.curves, self.other) for curve in row)
 
+    @property
+    def allowance(self) -> float:
+        """Greatest share of the loss with which it can be met [1]: nothing of a bound."""
+        return float(np.square(guiding(self.within / self.scale)))
+
     def means(self, recordings: Recordings) -> Floats:
         """Its curves, averaged over conditions (K, S), in the unit of the quantity."""
         return np.array([_mean(row, recordings) for row in self.curves])

@@ -1,7 +1,7 @@
 """The loss of candidates, many side by side."""
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -32,10 +32,12 @@ class Verdict:
     Attributes:
         loss: Sum of the squares of the residuals, or a penalty [1]. Beyond the bound that was asked for it is
             the sum of those that were known by then, which is less.
+        shares: Each fitted aim's share of it (A,) [1]; NaN where it is not known.
         residuals: Residuals (R,) [1]; None where there is a penalty or the bound was passed.
     """
 
     loss: float
+    shares: Floats
     residuals: Floats | None = None
 
 
@@ -45,11 +47,11 @@ class Stage:
 
     Attributes:
         run: The run.
-        aims: What needs its recordings and perhaps those of earlier runs.
+        aims: What needs its recordings and perhaps those of earlier runs, by place among the fitted aims.
     """
 
     run: Run
-    aims: tuple[Aim, ...]
+    aims: dict[int, Aim]
 
 
 class Evaluator:
@@ -68,22 +70,38 @@ class Evaluator:
         self.problem = problem
         self.base_unit = problem.space.unit_of(_base_values(problem))
         self._threads = threads or os.cpu_count() or 1
-        self._fitted = _stages(problem.runs, [aim for aim in problem.aims if aim.fitted])
+        self._fitted = _stages(problem.runs, problem.fitted)
+
+    def judged(self, units: Floats, bounds: Floats) -> tuple[Floats, Floats]:
+        """Losses (C,) of points of the cube (C, P), and shares of the fitted aims (C, A).
+
+        Losses beyond bounds (C,) are less than exact, shares that are not known are NaN.
+        """
+        verdicts = self._all(self._verdict, units, bounds)
+        return np.array([each.loss for each in verdicts]), np.array([each.shares for each in verdicts])
 
     def losses(self, units: Floats, bounds: Floats) -> Floats:
-        """Losses (C,) of points of the cube (C, P); beyond bounds (C,) they are less than exact."""
-        return np.array([verdict.loss for verdict in self._all(self._verdict, units, bounds)])
+        """Losses alone, see :meth:`judged`."""
+        return self.judged(units, bounds)[0]
 
     def verdicts(self, units: Floats) -> list[Verdict]:
         """What becomes of points of the cube (C, P)."""
         return self._all(self._verdict, units, np.full(len(units), np.inf))
 
-    def outcomes(self, unit: Floats) -> list[Outcome]:
-        """How well a point of the cube (P,) meets each target; those that cannot be simulated say so."""
+    def outcomes(self, unit: Floats, aims: Sequence[Aim] | None = None) -> list[Outcome]:
+        """How well a point of the cube (P,) meets each aim; those that cannot be simulated say so.
+
+        Args:
+            unit: The point.
+            aims: The aims; None for all.
+        """
+        aims = self.problem.aims if aims is None else aims
+        needed = {source for aim in aims for source in aim.sources}
+        runs = [run for run in self.problem.runs if run.name in needed]
         values = self.problem.space.scene_values(unit)
-        runs = self._all(lambda run: self._attempt(run, values), self.problem.runs)
-        told = dict(zip((run.name for run in self.problem.runs), runs, strict=True))
-        return [_outcome(aim, told) for aim in self.problem.aims]
+        told = self._all(lambda run: self._attempt(run, values), runs)
+        by_name = dict(zip((run.name for run in runs), told, strict=True))
+        return [_outcome(aim, by_name) for aim in aims]
 
     def refusal(self, unit: Floats) -> str:
         """Why a point of the cube (P,) cannot be simulated, in words."""
@@ -113,34 +131,35 @@ class Evaluator:
         values = self.problem.space.scene_values(unit)
         recordings: dict[str, Recording] = {}
         residuals: list[Floats] = []
-        loss = 0.0
+        shares = np.full(len(self.problem.fitted), np.nan)
         for done, stage in enumerate(self._fitted):
             told = self._attempt(stage.run, values)
             if isinstance(told, str):
-                return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())))
+                return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())), shares)
             idle = [_share_after_break(each) for each in told.values() if each.broken]
             if idle:
                 left = len(self._fitted) - done - 1 + (len(idle) + sum(idle)) / (2 * len(told))
-                return Verdict(BROKEN * (1.0 + 2.0 * left / len(self._fitted)))
+                return Verdict(BROKEN * (1.0 + 2.0 * left / len(self._fitted)), shares)
             recordings.update(told)
-            residuals += [aim.residuals(recordings) for aim in stage.aims]
-            loss = float(sum(np.square(each).sum() for each in residuals))
-            if not np.isfinite(loss):
-                return Verdict(BROKEN * 3.0)
-            if loss > bound:
-                return Verdict(min(loss, BROKEN))
-        return Verdict(min(loss, BROKEN), np.concatenate(residuals))
+            for place, aim in stage.aims.items():
+                residuals.append(aim.residuals(recordings))
+                shares[place] = np.square(residuals[-1]).sum()
+                if not np.isfinite(shares[place]):
+                    return Verdict(BROKEN * 3.0, shares)
+            if np.nansum(shares) > bound:
+                return Verdict(min(float(np.nansum(shares)), BROKEN), shares)
+        return Verdict(min(float(shares.sum()), BROKEN), shares, np.concatenate(residuals))
 
 
-def _stages(runs: Iterable[Run], aims: list[Aim]) -> list[Stage]:
+def _stages(runs: Iterable[Run], aims: Sequence[Aim]) -> list[Stage]:
     """Runs that an aim needs, in their order, each with the aims that can be judged after it."""
     stages: list[Stage] = []
     for run in runs:
         if not any(run.name in aim.sources for aim in aims):
             continue
         known = {stage.run.name for stage in stages} | {run.name}
-        ready = [aim for aim in aims if run.name in aim.sources and aim.sources <= known]
-        stages.append(Stage(run, tuple(ready)))
+        ready = {at: aim for at, aim in enumerate(aims) if run.name in aim.sources and aim.sources <= known}
+        stages.append(Stage(run, ready))
     return stages
 
 

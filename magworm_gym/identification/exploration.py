@@ -22,7 +22,7 @@ def explore(
     known: Floats,
     settings: SearchSettings,
     progress: Progress | None = None,
-) -> tuple[Floats, Floats]:
+) -> None:
     """Wanders through the set of candidates that fit about as well as the best, to find its ends.
 
     Some of the steps go along the difference of two members, which follows narrow valleys, some along what
@@ -36,9 +36,6 @@ def explore(
         known: Their losses (C,).
         settings: Settings.
         progress: Told after each round.
-
-    Returns:
-        All candidates, old and new, and their losses.
     """
     generator = np.random.default_rng([settings.seed, 2])
     for done in range(settings.rounds):
@@ -48,7 +45,6 @@ def explore(
         units, known = np.vstack([units, proposed]), np.append(known, found)
         if progress is not None:
             progress("explore", done + 1, settings.rounds, float(known.min()))
-    return units, known
 
 
 def _proposals(members: Floats, axes: Floats, generator: np.random.Generator) -> Floats:

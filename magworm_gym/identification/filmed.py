@@ -50,6 +50,11 @@ class Film:
         """What is compared."""
         return f"{self.experiment}: tracks, rms deviation of a coordinate in m"
 
+    @property
+    def allowance(self) -> float:
+        """A tolerance of each of its independent measurements."""
+        return self.weight
+
     @cached_property
     def weight(self) -> float:
         """Number of independent measurements that it counts for [1]."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
+from magworm_gym.identification.alternatives import Alternative, alternatives
 from magworm_gym.identification.combinations import FreeCombination, free_combinations
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.exploration import explore
@@ -42,6 +43,7 @@ class Identification:
         limit: Loss up to which a candidate fits about as well [1].
         candidates: Number of candidates that were simulated.
         outcomes: How well each target is met.
+        alternatives: What each fitted target that is not met would cost.
         findings: What is known of each parameter.
         evolutions: The evolutions, best first.
         sensitivity: Derivatives at the best point.
@@ -58,6 +60,7 @@ class Identification:
     limit: float
     candidates: int
     outcomes: list[Outcome]
+    alternatives: list[Alternative]
     findings: list[Finding]
     evolutions: list[Evolution]
     sensitivity: Sensitivity
@@ -111,7 +114,7 @@ def _fitted(
 ) -> Identification:
     evaluator = Evaluator(problem, threads)
     path = None if out is None else _open_folder(out, resume) / CANDIDATES
-    ledger = Ledger(path, evaluator.losses, len(problem.space), problem.fingerprint)
+    ledger = Ledger(path, evaluator.judged, len(problem.space), len(problem.fitted), problem.fingerprint)
     if resume and path is not None and path.exists():
         ledger.load()
     try:
@@ -122,10 +125,8 @@ def _fitted(
         refusal = evaluator.refusal(evaluator.base_unit)
         raise ProblemError(f"{error}; nearest to the base scene: {refusal}") from error
     axes = _sensitivity(problem, evaluator, ledger.units, ledger.known).axes
-    units, known = explore(
-        ledger.losses, problem.limit, axes, ledger.units, ledger.known, problem.settings, progress
-    )
-    return _identification(problem, evaluator, evolutions, units, known)
+    explore(ledger.losses, problem.limit, axes, ledger.units, ledger.known, problem.settings, progress)
+    return _identification(problem, evaluator, evolutions, ledger)
 
 
 def _starts(problem: Problem, evaluator: Evaluator) -> Floats:
@@ -135,14 +136,16 @@ def _starts(problem: Problem, evaluator: Evaluator) -> Floats:
 
 
 def _identification(
-    problem: Problem, evaluator: Evaluator, evolutions: list[Evolution], units: Floats, known: Floats
+    problem: Problem, evaluator: Evaluator, evolutions: list[Evolution], ledger: Ledger
 ) -> Identification:
+    units, known = ledger.units, ledger.known
     best, loss = units[int(known.argmin())], float(known.min())
     limit = problem.limit(loss)
     sensed = _sensitivity(problem, evaluator, units, known)
     values = problem.space.scene_values(best)
     fitting = units[known <= limit]
-    scene, left_out = _fitted_scene(problem.base, values)
+    scene, left_out = base_with(problem.base, values)
+    outcomes = evaluator.outcomes(best)
     return Identification(
         problem=problem,
         unit=best,
@@ -150,7 +153,8 @@ def _identification(
         loss=loss,
         limit=limit,
         candidates=len(known),
-        outcomes=evaluator.outcomes(best),
+        outcomes=outcomes,
+        alternatives=alternatives(evaluator, outcomes, units, known, ledger.shares),
         findings=findings(problem.space, best, evolutions, fitting, limit, sensed),
         evolutions=evolutions,
         sensitivity=sensed,
@@ -182,7 +186,7 @@ def _open_folder(out: Path, resume: bool) -> Path:
     return out
 
 
-def _fitted_scene(base: Scene, values: dict[str, float]) -> tuple[Scene, tuple[str, ...]]:
+def base_with(base: Scene, values: dict[str, float]) -> tuple[Scene, tuple[str, ...]]:
     """The base with all values that it has a field for, and the paths of the others."""
     has = scene_numbers(base)
     fitting = {path: value for path, value in values.items() if path in has}

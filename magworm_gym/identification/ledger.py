@@ -11,6 +11,7 @@ from magworm_gym.atomic_files import replace_file
 from magworm_gym.identification.mistake import ProblemError
 
 Floats = NDArray[np.float64]
+Judged = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 SAME = 1e-6
 """Distance in the unit cube up to which a candidate is the one that was kept [1]."""
@@ -24,16 +25,18 @@ class Ledger:
 
     Args:
         path: The file, numpy's npz, written anew after each question; None keeps nothing.
-        losses: See :data:`magworm_gym.identification.search.Losses`.
+        judged: Gives losses (C,) of points of the unit cube (C, P), exact up to bounds (C,), and shares of
+            the aims (C, A).
         dimension: Number of parameters P.
+        aims: Number of aims A that share the loss.
         fingerprint: Of the problem that the losses belong to.
     """
 
     def __init__(
-        self, path: Path | None, losses: Callable[[Floats, Floats], Floats], dimension: int, fingerprint: str
+        self, path: Path | None, judged: Judged, dimension: int, aims: int, fingerprint: str
     ) -> None:
-        self._path, self._ask, self._fingerprint = path, losses, fingerprint
-        self._units, self._losses = np.empty((0, dimension)), np.empty(0)
+        self._path, self._ask, self._fingerprint = path, judged, fingerprint
+        self._units, self._losses, self._shares = np.empty((0, dimension)), np.empty(0), np.empty((0, aims))
         self._used = 0
 
     def load(self) -> int:
@@ -46,7 +49,7 @@ class Ledger:
         try:
             with np.load(self._path) as kept:
                 fingerprint = str(kept["fingerprint"])
-                units, losses = kept["units"], kept["losses"]
+                units, losses, shares = kept["units"], kept["losses"], kept["shares"]
         except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
             raise ProblemError(
                 f"{self._path} cannot be read; allowed: the file of a run that was stopped"
@@ -56,7 +59,7 @@ class Ledger:
                 f"{self._path} belongs to another problem, other settings or another version; "
                 "allowed with --resume: exactly what the run was started with"
             )
-        self._units, self._losses = units, losses
+        self._units, self._losses, self._shares = units, losses, shares
         return len(losses)
 
     @property
@@ -68,6 +71,11 @@ class Ledger:
     def known(self) -> Floats:
         """Their losses (C,) [1]."""
         return self._losses[: self._used]
+
+    @property
+    def shares(self) -> Floats:
+        """What each aim's share of them is (C, A) [1]; NaN where it is not known."""
+        return self._shares[: self._used]
 
     def losses(self, units: Floats, bounds: Floats) -> Floats:
         """Losses (C,) of points of the unit cube (C, P); kept before it returns.
@@ -81,9 +89,10 @@ class Ledger:
         """
         end = self._used + len(units)
         if len(self._losses) < end:
-            losses = self._ask(units, bounds)
+            losses, shares = self._ask(units, bounds)
             self._units = np.concatenate([self._units[: self._used], units])
             self._losses = np.concatenate([self._losses[: self._used], losses])
+            self._shares = np.concatenate([self._shares[: self._used], shares])
             if self._path is not None:
                 self._save(self._path)
         elif np.abs(self._units[self._used : end] - units).max(initial=0.0) > SAME:
@@ -96,4 +105,10 @@ class Ledger:
 
     def _save(self, path: Path) -> None:
         with replace_file(path) as part, part.open("wb") as file:
-            np.savez(file, units=self._units, losses=self._losses, fingerprint=np.array(self._fingerprint))
+            np.savez(
+                file,
+                units=self._units,
+                losses=self._losses,
+                shares=self._shares,
+                fingerprint=np.array(self._fingerprint),
+            )

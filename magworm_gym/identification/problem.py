@@ -63,7 +63,12 @@ class Problem:
     @property
     def measurements(self) -> float:
         """Number of independent measurements that are fitted [1]."""
-        return sum(aim.weight for aim in self.aims if aim.fitted)
+        return sum(aim.weight for aim in self.fitted)
+
+    @property
+    def fitted(self) -> tuple[Aim, ...]:
+        """The aims that are part of the loss (A)."""
+        return tuple(aim for aim in self.aims if aim.fitted)
 
     @property
     def runs(self) -> tuple[Run, ...]:
@@ -73,7 +78,7 @@ class Problem:
     @property
     def simulated_s(self) -> float:
         """Simulated time of one candidate that is run to its end [s]."""
-        needed = {source for aim in self.aims if aim.fitted for source in aim.sources}
+        needed = {source for aim in self.fitted for source in aim.sources}
         return sum(run.simulated_s for run in self.runs if run.name in needed)
 
     def limit(self, loss: float) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from magworm_gym import __version__
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
+from magworm_gym.identification.alternatives import Alternative
 from magworm_gym.identification.combinations import in_words
 from magworm_gym.identification.evaluation import BROKEN
 from magworm_gym.identification.findings import Finding
@@ -79,6 +80,7 @@ def as_markdown(found: Identification) -> str:
             "",
             *_target_table([outcome for outcome in found.outcomes if outcome.fitted]),
             "",
+            *_alternatives(found),
             *_held_out(found),
             "## Profiles",
             "",
@@ -155,6 +157,23 @@ def _met(found: Identification) -> str:
     held = [outcome.met for outcome in found.outcomes if not outcome.fitted]
     others = f"; of {len(held)} held out {sum(held)}" if held else ""
     return f"Of {len(fitted)} fitted targets {sum(fitted)} are met{others}."
+
+
+def _alternatives(found: Identification) -> list[str]:
+    """What targets that are not met would cost."""
+    if not found.alternatives:
+        return []
+    return ["## Not met", "", *[_alternative(found, each) for each in found.alternatives], ""]
+
+
+def _alternative(found: Identification, alternative: Alternative) -> str:
+    if alternative.values is None:
+        return f"- {alternative.target}: none of {found.candidates} candidates meets it."
+    values = ", ".join(f"`{path}` = {value:.4g}" for path, value in alternative.values.items())
+    return (
+        f"- {alternative.target}: the best of {found.candidates} candidates that meets it has a loss of "
+        f"{alternative.loss:.4g} and misses {'; '.join(alternative.missed) or 'nothing'}. It is {values}."
+    )
 
 
 def _held_out(found: Identification) -> list[str]:
@@ -266,6 +285,7 @@ def as_json(found: Identification) -> dict[str, Any]:
         "not_in_scene": list(found.left_out),
         "parameters": [_finding_json(finding) for finding in found.findings],
         "targets": [vars(outcome) for outcome in found.outcomes],
+        "alternatives": [vars(alternative) for alternative in found.alternatives],
         "profiles": found.profiles.tolist(),
         "restarts": [
             {

@@ -62,6 +62,10 @@ class Aim(Protocol):
     def sources(self) -> frozenset[str]:
         """Names of the experiments and sweeps whose recordings it needs."""
 
+    @property
+    def allowance(self) -> float:
+        """Greatest share of the loss with which it can be met [1]."""
+
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (R,) [1]; their squares add up to the loss."""
 
@@ -100,6 +104,11 @@ class Target:
         """Its experiment and quantity."""
         return f"{self.experiment}: {self.quantity}"
 
+    @property
+    def allowance(self) -> float:
+        """One tolerance of a value; nothing of a bound."""
+        return 1.0 if self.low == self.high else 0.0
+
     def deviation(self, recordings: Recordings) -> float:
         """How far outside of the bounds the model is, in tolerances [1]."""
         model = self.quantity.measure(recordings[self.experiment])
@@ -123,7 +132,7 @@ class Target:
             error_percent=percent,
             error_tolerances=deviation,
             loss=loss,
-            met=abs(deviation) <= (1.0 if self.low == self.high else 0.0),
+            met=abs(deviation) <= self.allowance,
             fitted=self.fitted,
         )
 
@@ -155,6 +164,7 @@ class Comparison:
     tolerance: float
     fitted: bool = True
     weight: float = 1.0
+    allowance: float = 0.0
 
     @property
     def sources(self) -> frozenset[str]:

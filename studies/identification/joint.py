@@ -1,0 +1,243 @@
+"""Fits one robot to all of the paper's curves, from blind starts, and judges what it was not fitted to.
+
+    python studies/identification/joint.py --out runs/joint --seeds 8
+
+runs, for each problem, a search from a blind start for each seed, and for each group of claims a search
+without it; a run that was stopped goes on, one that is done is kept. From them it writes
+
+- docs/identification/joint.md: claims met by each run, each group judged by robots that were not fitted to
+  it, intervals of the parameters;
+- studies/identification/ensemble/: from each blind start a robot within 1.3 times the least loss that meets
+  the same claims as the best, as unlike the others as it can be.
+"""
+
+import argparse
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magworm_gym.identification import Problem, identify, read_problem, write_results
+from magworm_gym.identification.claims import Claim
+from magworm_gym.identification.ensemble import alike, coverage, farthest_first
+from magworm_gym.identification.evaluation import Evaluator
+from magworm_gym.identification.identify import base_with
+from magworm_gym.identification.scene_file import commented_scene
+
+Floats = NDArray[np.float64]
+
+HERE = Path(__file__).parent
+PAGE = HERE.parents[1] / "docs/identification/joint.md"
+ENSEMBLE = HERE / "ensemble"
+
+WITHIN = 1.3
+"""Times the least loss of all runs that a robot of the ensemble may have."""
+TRIES = 40
+"""Candidates of a run that are looked at to find its robot."""
+COVERED = 0.5
+"""Part of each interval that the ensemble is to reach over."""
+APART, PLACES = 0.1, 3
+"""Any two robots are to differ by this part of the interval in this many parameters."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """A finished run.
+
+    Attributes:
+        name: Name of its folder.
+        problem: What was fitted.
+        without: Group of claims that was left out; empty for none.
+        report: Its report.
+        units: Its candidates (C, P), best first.
+        losses: Their losses (C,).
+    """
+
+    name: str
+    problem: Problem
+    without: str
+    report: dict[str, Any]
+    units: Floats
+    losses: Floats
+
+    @property
+    def loss(self) -> float:
+        """Its least loss."""
+        return float(self.report["loss"])
+
+    def met(self, names: list[str]) -> int:
+        """How many of these targets its best candidate meets."""
+        return sum(each["met"] for each in self.report["targets"] if each["name"] in names)
+
+
+def main() -> None:
+    """Runs what is missing and writes the page and the ensemble."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--problems", nargs="+", type=Path, default=[HERE / "paper-joint.toml"])
+    parser.add_argument("--out", type=Path, default=Path("runs/joint"), help="folder of the runs")
+    parser.add_argument("--seeds", type=int, default=8, help="blind starts of each problem")
+    parser.add_argument("--crossed", type=int, default=2, help="blind starts without each group of claims")
+    parser.add_argument("--page", type=Path, default=PAGE)
+    parser.add_argument("--ensemble", type=Path, default=ENSEMBLE)
+    arguments = parser.parse_args()
+    blind, crossed = [], []
+    for problem in arguments.problems:
+        blind += [finished(arguments.out, problem, seed) for seed in range(arguments.seeds)]
+        for group in groups(blind[-1].problem):
+            crossed += [finished(arguments.out, problem, seed, group) for seed in range(arguments.crossed)]
+    chosen = ensemble(blind)
+    write_ensemble(arguments.ensemble, blind, chosen)
+    arguments.page.parent.mkdir(parents=True, exist_ok=True)
+    arguments.page.write_text(page(blind, crossed, chosen), encoding="utf-8")
+
+
+def groups(problem: Problem) -> list[str]:
+    """Groups of fitted claims."""
+    claims = [aim for aim in problem.fitted if isinstance(aim, Claim)]
+    return list(dict.fromkeys(claim.group for claim in claims if claim.group))
+
+
+def finished(out: Path, file: Path, seed: int, without: str = "") -> Search:
+    """A run from a blind start, done now where it was not before."""
+    problem = read_problem(file, {"seed": seed, "blind": True}, [without] if without else [])
+    folder = out / f"{file.stem}-{seed}{f'-without-{without}' if without else ''}"
+    if not (folder / "report.json").exists():
+        print(folder, flush=True)
+        write_results(identify(problem, folder, resume=folder.exists()), folder)
+    with np.load(folder / "candidates.npz") as kept:
+        order = np.argsort(kept["losses"], kind="stable")
+        units, losses = kept["units"][order], kept["losses"][order]
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    return Search(folder.name, problem, without, report, units, losses)
+
+
+def shared(blind: list[Search]) -> list[str]:
+    """Labels of the parameters that all problems have."""
+    labels = [[parameter.label for parameter in run.problem.space.parameters] for run in blind]
+    return [label for label in labels[0] if all(label in each for each in labels)]
+
+
+def pool(run: Search, limit: float, labels: list[str]) -> Floats:
+    """Shared parameters (K, P) of the candidates of a run within a limit, as fitted numbers, best first."""
+    space = run.problem.space
+    columns = [[parameter.label for parameter in space.parameters].index(label) for label in labels]
+    units = run.units[run.losses <= limit]
+    return np.array([space.fitted(unit)[columns] for unit in units]).reshape(-1, len(labels))
+
+
+def ensemble(blind: list[Search]) -> list[int | None]:
+    """Place of each run's robot among its candidates."""
+    limit, labels = WITHIN * min(run.loss for run in blind), shared(blind)
+    pools = [pool(run, limit, labels) for run in blind]
+    together = np.vstack(pools)
+    wanted = claims_met(min(blind, key=lambda run: run.loss), 0)
+    return farthest_first(
+        pools,
+        np.maximum(np.ptp(together, axis=0), 1e-300),
+        lambda number, place: claims_met(blind[number], place) >= wanted,
+        TRIES,
+    )
+
+
+def claims_met(run: Search, place: int) -> set[str]:
+    """Names of the fitted targets that a candidate of a run meets."""
+    outcomes = Evaluator(run.problem).outcomes(run.units[place], run.problem.fitted)
+    return {outcome.name for outcome in outcomes if outcome.met}
+
+
+def write_ensemble(folder: Path, blind: list[Search], chosen: list[int | None]) -> None:
+    """Writes the robots as scenes with three magnets."""
+    folder.mkdir(parents=True, exist_ok=True)
+    members = [(run, place) for run, place in zip(blind, chosen, strict=True) if place is not None]
+    for number, (run, place) in enumerate(members, start=1):
+        space = run.problem.space
+        values = space.scene_values(run.units[place])
+        scene, left_out = base_with(run.problem.base, values)
+        origins = {parameter.path: "identified" for parameter in space.parameters}
+        head = [f"Robot {number} of the ensemble: {run.name}, loss {run.losses[place]:.4g}."]
+        head += [f"Identified too: {path} = {values[path]:.6g}" for path in left_out]
+        text = commented_scene(scene, origins, f"as in {run.problem.base_name}", head)
+        (folder / f"{number:02}.toml").write_text(text, encoding="utf-8")
+
+
+def page(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -> str:
+    """The page."""
+    parts = [
+        "# One robot for all figures of the paper",
+        *claims_section(blind),
+        *crossed_section(crossed),
+        *ensemble_section(blind, chosen),
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def claims_section(blind: list[Search]) -> list[str]:
+    """Which claims the best candidate of each run meets."""
+    best = min(blind, key=lambda run: run.loss)
+    rows = ["", "## Blind starts", "", "| run | loss | candidates | fitted, met | held out, met |"]
+    rows.append("|---|---|---|---|---|")
+    for run in sorted(blind, key=lambda run: run.loss):
+        targets = run.report["targets"]
+        cells = [sum(t["met"] for t in targets if t["fitted"] is fitted) for fitted in (True, False)]
+        counts = [sum(t["fitted"] is fitted for t in targets) for fitted in (True, False)]
+        rows.append(
+            f"| {run.name} | {run.loss:.4g} | {len(run.losses)} | {cells[0]} of {counts[0]} | "
+            f"{cells[1]} of {counts[1]} |"
+        )
+    rows += ["", f"Targets of the best, {best.name}, those that it misses first:", ""]
+    rows += ["| target | fitted | wanted | model | met | met by |", "|---|---|---|---|---|---|"]
+    for target in sorted(best.report["targets"], key=lambda target: target["met"]):
+        model = "–" if target["model"] is None else f"{target['model']:.4g}"
+        count = sum(run.met([target["name"]]) for run in blind)
+        rows.append(
+            f"| {target['name']} | {yes(target['fitted'])} | {target['target']} | {model} | "
+            f"{yes(target['met'])} | {count} of {len(blind)} |"
+        )
+    return rows
+
+
+def yes(true: bool) -> str:
+    """A word for a table."""
+    return "yes" if true else "**no**"
+
+
+def crossed_section(crossed: list[Search]) -> list[str]:
+    """How well each group of claims is met by robots that were not fitted to it."""
+    rows = ["", "## Cross-validation", "", "| left out | run | loss of the rest | met of the group |"]
+    rows.append("|---|---|---|---|")
+    for run in crossed:
+        claims = [aim for aim in run.problem.aims if isinstance(aim, Claim)]
+        names = [claim.name for claim in claims if claim.group == run.without]
+        rows.append(f"| {run.without} | {run.name} | {run.loss:.4g} | {run.met(names)} of {len(names)} |")
+    return rows
+
+
+def ensemble_section(blind: list[Search], chosen: list[int | None]) -> list[str]:
+    """The intervals of the parameters and how much of them the ensemble reaches over."""
+    limit, labels = WITHIN * min(run.loss for run in blind), shared(blind)
+    pools = [pool(run, limit, labels) for run in blind]
+    together = np.vstack(pools)
+    low, high = together.min(axis=0), together.max(axis=0)
+    robots = np.array([p[k] for p, k in zip(pools, chosen, strict=True) if k is not None])
+    reached = coverage(robots, low, high)
+    rows = ["", "## Ensemble", "", f"Robots: {len(robots)}, from as many blind starts.", ""]
+    rows += [
+        f"| parameter | within {WITHIN:g} × the least loss | the ensemble reaches over |",
+        "|---|---|---|",
+    ]
+    for at, label in enumerate(labels):
+        share = f"{100.0 * reached[at]:.0f} %{'' if reached[at] >= COVERED else ', too little'}"
+        rows.append(f"| `{label}` | {low[at]:.4g} to {high[at]:.4g} | {share} |")
+    pairs = alike(robots, APART * (high - low), PLACES)
+    said = ", ".join(f"{i + 1} and {j + 1}" for i, j in pairs) or "none"
+    rows += ["", f"Pairs that differ by {APART:g} of that in fewer than {PLACES} parameters: {said}."]
+    return rows
+
+
+if __name__ == "__main__":
+    main()
