@@ -12,6 +12,7 @@ from magworm_gym.identification.alternatives import alternatives
 from magworm_gym.identification.claims import KINDS, Claim, Curve, curve_of
 from magworm_gym.identification.ensemble import alike, coverage, farthest_first
 from magworm_gym.identification.evaluation import BROKEN, Evaluator
+from magworm_gym.identification.problem import scene_numbers
 from magworm_gym.identification.profiles import profiles
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.search import search
@@ -434,6 +435,15 @@ def test_a_problem_adds_to_the_one_that_it_is_like(tmp_path):
     second.write_text('like = "second.toml"\n')
     with pytest.raises(ProblemError, match=r"like is 'second.toml'; allowed: another problem file"):
         read_problem(second)
+
+
+def test_values_and_settings_that_are_given_replace_those_of_the_file():
+    finer = {"solver.step_s": 0.0005, "body.elements_per_bridge": 8}
+    made = read_problem(JOINT, {"restarts": 3}, values=finer)
+    assert made.settings.restarts == 3 and made.settings.population == read_problem(JOINT).settings.population
+    for run in made.runs:
+        assert scene_numbers(run.scene)["solver.step_s"] == 0.0005
+        assert scene_numbers(run.scene)["body.elements_per_bridge"] == 8
 
 
 SWEEP = {"name": "three", "speeds_m_s": list(SPEEDS)}

@@ -71,6 +71,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--blind", action="store_true", help="leave out the robots that the problem file starts from"
     )
+    add_set(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
     _add_search(parser.add_argument_group("search (replaces what the problem file says)"))
     _add_film(parser.add_argument_group("one film in place of a problem file"))
@@ -110,7 +111,6 @@ def _add_film(group: Any) -> None:
         metavar=("PATH", "LOW", "HIGH"),
         help="a number of the scene to fit, and its bounds; may be repeated",
     )
-    add_set(group)
     group.add_argument("--start-s", type=float, metavar="S", help="time in the film when the run begins (0)")
     group.add_argument("--duration-s", type=float, metavar="S", help="how long it is compared (to its end)")
     group.add_argument("--head", choices=("left", "right"), help="side the head points to (left)")
@@ -167,7 +167,7 @@ def _problem(parsed: argparse.Namespace, search: dict[str, Any]) -> Problem:
     if parsed.problem is not None:
         if parsed.tracks is not None or parsed.fit is not None:
             raise ProblemError("a problem file and --tracks or --fit are given; allowed: one or the other")
-        return read_problem(parsed.problem, search, parsed.without)
+        return read_problem(parsed.problem, search, parsed.without, set_values(parsed.set))
     if parsed.tracks is None:
         raise ProblemError("neither a problem file nor --tracks is given; allowed: one of them")
     for name in NEEDED_FLAGS:

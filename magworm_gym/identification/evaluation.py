@@ -136,10 +136,10 @@ class Evaluator:
             told = self._attempt(stage.run, values)
             if isinstance(told, str):
                 return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())), shares)
-            idle = [_share_after_break(each) for each in told.values() if each.broken]
-            if idle:
-                left = len(self._fitted) - done - 1 + (len(idle) + sum(idle)) / (2 * len(told))
-                return Verdict(BROKEN * (1.0 + 2.0 * left / len(self._fitted)), shares)
+            left = _share_left(list(told.values()))
+            if left > 0.0:
+                left = (len(self._fitted) - done - 1 + left) / len(self._fitted)
+                return Verdict(BROKEN * (1.0 + 2.0 * left), shares)
             recordings.update(told)
             for place, aim in stage.aims.items():
                 residuals.append(aim.residuals(recordings))
@@ -192,6 +192,12 @@ def _base_values(problem: Problem) -> dict[str, float]:
     for run in problem.runs[::-1]:
         numbers.update(scene_numbers(run.scene))
     return {**numbers, **scene_numbers(problem.base)}
+
+
+def _share_left(runs: list[Recording]) -> float:
+    """How much of a run is left when it breaks, from 0, where it does not, to 1, where nobody moved [1]."""
+    idle = [_share_after_break(run) for run in runs if run.broken]
+    return (len(idle) + sum(idle)) / (2.0 * len(runs))
 
 
 def _share_after_break(run: Recording) -> float:

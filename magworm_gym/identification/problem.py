@@ -89,7 +89,10 @@ class Problem:
 
 
 def read_problem(
-    path: str | PathLike[str], search: Mapping[str, Any] | None = None, without: Collection[str] = ()
+    path: str | PathLike[str],
+    search: Mapping[str, Any] | None = None,
+    without: Collection[str] = (),
+    values: Mapping[str, Any] | None = None,
 ) -> Problem:
     """Reads a problem file.
 
@@ -97,14 +100,14 @@ def read_problem(
         path: The TOML file; files that it names are relative to its folder.
         search: Settings of the search that replace those of the file.
         without: Groups of claims that are not fitted, only reported.
+        values: Values of the scene that replace those of the file.
 
     Raises:
         ProblemError: A mistake in it or in a file that it names.
     """
     path = path_of("path", path)
-    entries = _entries(path)
-    if search:
-        entries = _merged(entries, {"search": dict(search)})
+    given = {"search": dict(search or {}), "values": dict(values or {})}
+    entries = _merged(_entries(path), {key: each for key, each in given.items() if each})
     if without:
         entries = {**entries, "without": sorted(without)}
     try:

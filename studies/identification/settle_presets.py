@@ -14,14 +14,20 @@ The report of the run goes to docs/identification/. ``make identify`` does all o
 import argparse
 import json
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.identification import Problem, read_problem
 from magworm_gym.identification.evaluation import Evaluator
+from magworm_gym.identification.experiment import Experiment
+from magworm_gym.identification.sweep import Sweep
+
+R = TypeVar("R", Experiment, Sweep)
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -30,12 +36,13 @@ REPORTS = ROOT / "docs/identification"
 RESTARTS = HERE / "restarts"
 
 PRESETS = {
+    "paper-joint": ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125", "paper-3-experiment"),
     "paper-3": ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125", "paper-3-experiment"),
     "paper-3-experiment": ("paper-3-experiment",),
 }
 """Name of a problem → presets that take its values; the second changes some of the first's."""
 
-MARKS = {"paper-3": "identified", "paper-3-experiment": "experiment"}
+MARKS = {"paper-joint": "identified", "paper-3": "identified", "paper-3-experiment": "experiment"}
 """Name of a problem → how a preset marks its values."""
 
 REFINEMENTS: tuple[dict[str, Any], ...] = (
@@ -45,6 +52,9 @@ REFINEMENTS: tuple[dict[str, Any], ...] = (
     {"solver.step_s": 0.0005, "body.elements_per_bridge": 16, "body.elements_per_foot_end": 4},
 )
 """Steps and meshes with which a candidate has to fit too."""
+
+FEW = {"paper-joint": (REFINEMENTS[0], {"solver.step_s": 0.0005, "body.elements_per_bridge": 8})}
+"""Name of a problem with long runs → the fewer refinements that it can afford."""
 
 MISSED = 90.0
 """Loss beyond which a restart does not meet its targets: 3 % of each of ten figures known to 1 %."""
@@ -66,10 +76,13 @@ def main() -> None:
     run = arguments.runs / arguments.problem
     with np.load(run / "candidates.npz") as kept:
         units = kept["units"][np.argsort(kept["losses"], kind="stable")[: arguments.candidates]]
-    losses = refined_losses(problem, units)
+    refinements = FEW.get(arguments.problem, REFINEMENTS)
+    losses = refined_losses(problem, units, refinements)
     best = int(losses.sum(axis=1).argmin())
     values = rounded(problem.space.scene_values(units[best]))
-    choice = words(best, losses[best], values)
+    if "drive.motion.y_m" in values:
+        values["drive.motion.highest_m"] = values["drive.motion.y_m"]
+    choice = words(best, losses[best], refinements, values)
     print(choice)
     report = (run / "report.md").read_text(encoding="utf-8")
     REPORTS.mkdir(exist_ok=True)
@@ -87,11 +100,13 @@ def main() -> None:
         print(f"{name}: {len(values)} values written")
 
 
-def words(rank: int, losses: NDArray[np.float64], values: dict[str, float]) -> str:
+def words(
+    rank: int, losses: NDArray[np.float64], refinements: Sequence[dict[str, Any]], values: dict[str, float]
+) -> str:
     """The choice in words, for the report."""
     finer = "; ".join(
         f"{loss:.3g} with {', '.join(f'`{path}` = {value:g}' for path, value in refinement.items())}"
-        for loss, refinement in zip(losses[1:], REFINEMENTS, strict=True)
+        for loss, refinement in zip(losses[1:], refinements, strict=True)
     )
     chosen = ", ".join(f"`{path}` = {value:g}" for path, value in values.items())
     return (
@@ -114,25 +129,30 @@ def restarts_of(problem: Problem, report: dict[str, Any]) -> list[dict[str, Any]
     return restarts
 
 
-def refined_losses(problem: Problem, units: NDArray[np.float64]) -> NDArray[np.float64]:
+def refined_losses(
+    problem: Problem, units: NDArray[np.float64], refinements: Sequence[dict[str, Any]]
+) -> NDArray[np.float64]:
     """Losses (C, 1 + R) of candidates (C, P) as they were identified and with each of R refinements."""
     bounds = np.full(len(units), np.inf)
     columns = [Evaluator(problem).losses(units, bounds)]
-    for refinement in REFINEMENTS:
+    for refinement in refinements:
         columns.append(Evaluator(refined(problem, refinement)).losses(units, bounds))
         print(f"{refinement}: least loss {columns[-1].min():.3g}")
     return np.stack(columns, axis=1)
 
 
 def refined(problem: Problem, values: dict[str, Any]) -> Problem:
-    """The experiments of a problem that do not refine anything themselves, refined."""
-    plain = [each for each in problem.experiments if "solver.step_s" not in each.known]
-    dropped = {each.name for each in problem.experiments} - {each.name for each in plain}
-    experiments = tuple(
-        type(each)(each.name, each.duration_s, each.scene.with_values(values), each.known) for each in plain
-    )
-    aims = tuple(aim for aim in problem.aims if getattr(aim, "experiment", None) not in dropped)
-    return type(problem)(**{**vars(problem), "experiments": experiments, "aims": aims})
+    """The runs of a problem that do not refine anything themselves, refined."""
+    experiments, sweeps = refined_runs(problem.experiments, values), refined_runs(problem.sweeps, values)
+    kept = {run.name for run in experiments} | {run.name for run in sweeps}
+    aims = tuple(aim for aim in problem.aims if aim.sources <= kept)
+    return replace(problem, experiments=experiments, sweeps=sweeps, aims=aims)
+
+
+def refined_runs(runs: tuple[R, ...], values: dict[str, Any]) -> tuple[R, ...]:
+    """Those of some runs that do not refine anything themselves, refined."""
+    plain = [run for run in runs if "solver.step_s" not in run.known]
+    return tuple(replace(run, scene=run.scene.with_values(values)) for run in plain)
 
 
 def rounded(values: dict[str, float]) -> dict[str, float]:
