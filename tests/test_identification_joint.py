@@ -322,10 +322,25 @@ def test_evolutions_are_halved_and_begin_at_known_robots():
 
     settings = SearchSettings(restarts=4, population=6, generations=30, halve_after=(3, 6), scatter=8)
     start = np.full((1, 3), 0.69)
-    found = search(losses, lambda loss: 1.3 * loss, start, settings)
+    told = []
+    found = search(losses, lambda loss: 1.3 * loss, start, settings, lambda *stage: told.append(stage[0]))
+    assert told[0] == "scatter" and told[1] == "search"
     assert [each.generations for each in found[2:]] == [3, 3]
     assert found[1].generations == 6 and found[0].generations > 6
     assert found[0].loss < 1e-3
+
+
+def test_a_blind_search_does_not_depend_on_known_robots_nor_on_the_scene():
+    start = [{"values": {"material.youngs_modulus_pa": 55e3}}]
+    softer = {**ROBOT, "material.youngs_modulus_pa": 41e3}
+    blind = {"restarts": 2, "population": 6, "generations": 2, "scatter": 8, "rounds": 1, "blind": True}
+    one, other = (
+        identify(problem([FAST], search=blind, start=starts, values=values))
+        for starts, values in (([], ROBOT), (start, softer))
+    )
+    assert one.values == other.values and one.candidates == other.candidates
+    seeing = identify(problem([FAST], search={**blind, "blind": False}, start=start))
+    assert seeing.candidates == one.candidates + 2
 
 
 def test_profiles_hold_the_least_loss_of_each_slice():

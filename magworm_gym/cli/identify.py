@@ -69,7 +69,7 @@ def add_to(commands: Any) -> None:
         help="groups of claims of the problem file that are not fitted, only reported",
     )
     parser.add_argument(
-        "--blind", action="store_true", help="leave out the robots that the problem file starts from"
+        "--blind", action="store_true", help="try neither the scene nor the problem file's starts first"
     )
     add_set(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress bar and no summary")

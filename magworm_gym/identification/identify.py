@@ -130,9 +130,10 @@ def _fitted(
 
 
 def _starts(problem: Problem, evaluator: Evaluator) -> Floats:
-    """Points of the cube (S, P) that are tried first: the base scene, then known robots."""
-    known = [] if problem.settings.blind else [problem.space.unit_of(start) for start in problem.starts]
-    return np.array([evaluator.base_unit, *known])
+    """Points of the cube (S, P) that are tried first: the base scene, then known robots; none where blind."""
+    if problem.settings.blind:
+        return np.empty((0, len(problem.space)))
+    return np.array([evaluator.base_unit, *map(problem.space.unit_of, problem.starts)])
 
 
 def _identification(

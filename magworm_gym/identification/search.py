@@ -109,7 +109,7 @@ def search(
     strategy = _strategy_maker(settings)
     generator = np.random.default_rng([settings.seed, 1])
     scatter = np.vstack([starts, latin_hypercube(settings.scatter, starts.shape[1], generator)])
-    scattered = _scattered(losses, limit, scatter, RUNNERS_UP * settings.restarts)
+    scattered = _scattered(losses, limit, scatter, RUNNERS_UP * settings.restarts, progress)
     if scattered.min() >= BROKEN:
         raise NothingRunsError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
@@ -137,7 +137,9 @@ def search(
     return sorted(evolutions, key=lambda evolution: evolution.loss)
 
 
-def _scattered(losses: Losses, limit: Limit, scatter: Floats, exact: int) -> Floats:
+def _scattered(
+    losses: Losses, limit: Limit, scatter: Floats, exact: int, progress: Progress | None
+) -> Floats:
     """Losses (C,) of scattered points (C, P), at least so many of the least ones exactly."""
     known = np.empty(0)
     while len(known) < len(scatter):
@@ -146,6 +148,8 @@ def _scattered(losses: Losses, limit: Limit, scatter: Floats, exact: int) -> Flo
             bound = max(float(np.sort(known)[exact - 1]), limit(float(known.min())))
         points = scatter[len(known) : len(known) + ROUND]
         known = np.append(known, losses(points, np.full(len(points), bound)))
+        if progress is not None:
+            progress("scatter", len(known), len(scatter), float(known.min()))
     return known
 
 

@@ -17,7 +17,7 @@ class SearchSettings:
         patience: Generations without progress after which an evolution ends.
         halve_after: Generations after each of which the worse half of the evolutions ends.
         scatter: Candidates spread over the bounds first.
-        blind: Whether the robots that a problem names as starts are left out.
+        blind: Whether the base scene and the robots that a problem names as starts are left out.
         rounds: Rounds, of 64 candidates, that explore what fits as well as the best.
         first_step: Standard deviation of an evolution's first generation, as a part of the bounds [1].
         finest_step: An evolution ends where its standard deviations fall below [1].
