@@ -131,8 +131,9 @@ lint-python: install-test  ## ruff, mypy, stubtest
 test-rust: need-cargo  ## cargo test
 	cargo test
 
-test-nightly: need-cargo  ## 100,000 random extreme scenes, ten million steps in single precision
+test-nightly: need-cargo  ## 100,000 random extreme scenes and rubbers, ten million steps in single precision
 	PROPTEST_CASES=100000 cargo test --test random_scenes extreme
+	PROPTEST_CASES=100000 cargo test --test validation relaxing_stability
 	cargo test --test long_runs -- --ignored
 
 test-docs: need-cargo install-test  ## cargo doc, tables of README.md

@@ -30,6 +30,7 @@ class Effect:
 EFFECTS = (
     Effect("gravity", "gravity", "bare", ("gravity",)),
     Effect("damping of the rubber", "damping", "bare"),
+    Effect("rubber that relaxes, one branch", "relaxation", "bare"),
     Effect("one drive magnet", "drive", "bare", ("magnets", "drive")),
     Effect("a uniform field", "field", "bare", ("magnets",)),
     Effect("a magnet lost", "damage", "bare"),

@@ -8,7 +8,7 @@ use laid::{Bent, Laid, Straight};
 use crate::actuate;
 use crate::lanes::math::radians;
 use crate::lanes::{Number, Row};
-use crate::model::{Anchor, MassPart, Model};
+use crate::model::{Anchor, MassPart, Model, Shape};
 use crate::scene::Parameter;
 use crate::state::{Block, Status};
 
@@ -107,7 +107,20 @@ fn lay<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, start: StartPos
             for (row, [_, _, twist]) in block.twist.iter_mut().zip(&shape.strains) {
                 row[lane] = R::Number::of(*twist);
             }
+            relax(model, block, lane, shape);
         }
+    }
+}
+
+/// Lets rubber that relaxes do so in the shape that it is laid in; a straight body is without strain.
+fn relax<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, shape: &Shape) {
+    let ways = model.sizes().rotations;
+    let strains = shape.measured(model.scene.solver.curvature);
+    let strains = strains.flat_map(|strain| strain.into_iter().take(ways));
+    let branches = model.program.relaxation.branches.len();
+    let of_branches = strains.flat_map(|strain| std::iter::repeat_n(strain, branches));
+    for (row, strain) in block.bend_dashpot.iter_mut().zip(of_branches) {
+        row[lane] = R::Number::of(strain);
     }
 }
 

@@ -87,7 +87,8 @@ fn text_errors_name_the_line() {
     ] {
         refuses_text(old, new, anchor, sentence);
     }
-    let table = "a table with youngs_modulus_pa, density_kg_m3, damping_time_s, poisson_ratio";
+    let table =
+        "a table with youngs_modulus_pa, density_kg_m3, damping_time_s, poisson_ratio, relaxation";
     let text = Scene::preset_text("cantilever").unwrap().replace("[material]", "[start]");
     let error = Scene::from_toml(&text).unwrap_err();
     assert_eq!(error.to_string(), format!("material is missing; allowed: {table}"));

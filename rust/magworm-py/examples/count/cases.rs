@@ -67,6 +67,14 @@ const BARE: Edits =
     &[("ground", ""), ("drive", ""), ("gravity_m_s2", "0.0"), ("material.damping_time_s", "0.0")];
 const GRAVITY: Edits = &[("ground", ""), ("drive", ""), ("material.damping_time_s", "0.0")];
 const DAMPING: Edits = &[("ground", ""), ("drive", ""), ("gravity_m_s2", "0.0")];
+/// One relaxing branch.
+const RELAXATION: Edits = &[
+    ("ground", ""),
+    ("drive", ""),
+    ("gravity_m_s2", "0.0"),
+    ("material.damping_time_s", "0.0"),
+    ("material.relaxation", "[{ ratio = 0.34, time_s = 0.084 }]"),
+];
 const DRIVE: Edits = &[("ground", ""), ("gravity_m_s2", "0.0"), ("material.damping_time_s", "0.0")];
 const FIELD: Edits = &[
     ("ground", ""),
@@ -123,6 +131,8 @@ pub const CASES: &[Case] = &[
     case("gravity-space", Work::Block, "turn-3", GRAVITY),
     case("damping-plane", Work::Block, "paper-3", DAMPING),
     case("damping-space", Work::Block, "turn-3", DAMPING),
+    case("relaxation-plane", Work::Block, "paper-3", RELAXATION),
+    case("relaxation-space", Work::Block, "turn-3", RELAXATION),
     case("drive-plane", Work::Block, "paper-3", DRIVE),
     case("drive-space", Work::Block, "turn-3", DRIVE),
     case("field-plane", Work::Block, "paper-3", FIELD),

@@ -5,6 +5,7 @@
 //! n = ẑ × t, so ∂κ/∂e = −κ′ n_e/|e| and ∂κ/∂f = κ′ n_f/|f| with κ′ = dκ/dφ, which is 1 or 1 + κ²/4: the
 //! plane's form of ∂κ/∂e = (−κ t̃ + t_f × d̃)/|e|. Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
+use super::relax::Dashpots;
 use super::{Equations, MAX_STENCIL, Positions, Scheme, Springs, generalised_gradient};
 use crate::lanes::math::atan2;
 use crate::lanes::{Components, Dim, Isa, Plane, Real, Vector};
@@ -38,8 +39,10 @@ pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme
     let positions = Positions { node: &block.node, q: &block.q };
     let law = model.scene.solver.curvature;
     let mut equations = Equations { matrix, rhs, v };
+    let relaxation = &model.program.relaxation;
+    let mut dashpots = Dashpots::new(isa, relaxation, &mut block.bend_dashpot, &block.running[0]);
     let mut gradient = [isa.splat(0.0); MAX_STENCIL];
-    for spring in &model.bend {
+    for (way, spring) in model.bend.iter().enumerate() {
         let (e, f) = (spring.node - 1, spring.node);
         let te = Vector::load(isa, &tangent[2 * e..]);
         let tf = Vector::load(isa, &tangent[2 * f..]);
@@ -53,6 +56,7 @@ pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme
         let stencil = &spring.stencil;
         generalised_gradient::<Plane, I, 3>(isa, positions, stencil, &of_nodes, &mut gradient);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
+        let strain = dashpots.act(way, strain);
         let springs =
             Springs { stencil, gradients: [&gradient], strains: [strain], stiffness: [stiffness] };
         springs.add(isa, &mut equations, scheme);

@@ -13,6 +13,7 @@
 mod bend;
 mod frames;
 mod kinematics;
+mod relax;
 mod rod;
 mod stretch;
 mod twist;
@@ -23,7 +24,7 @@ pub use stretch::assemble as stretch;
 
 use crate::integrate::Coefficients;
 use crate::lanes::{Components, Dim, Isa, Real, Vec3};
-use crate::model::{MAX_STENCIL, Spin, Stencil};
+use crate::model::{MAX_STENCIL, Relaxation, Spin, Stencil};
 
 /// How the impulse of a spring enters the equations of a step.
 #[derive(Clone, Copy, Debug)]
@@ -41,15 +42,24 @@ pub struct Scheme<F> {
 }
 
 impl<F: Real> Scheme<F> {
-    /// The scheme of an integrator, of a retardation time τ and a step Δt.
+    /// The scheme of an integrator, of branches that relax, of a retardation time τ and a step Δt.
     #[inline(always)]
-    pub fn new(integrator: &Coefficients, stiffness: F, damping_s: F, dt: f64) -> Self {
-        let seconds = |[retardation, steps]: [f64; 2]| damping_s * retardation + steps * dt;
+    pub fn new(
+        integrator: &Coefficients,
+        relaxation: &Relaxation,
+        stiffness: F,
+        damping_s: F,
+        dt: f64,
+    ) -> Self {
+        let seconds = |[retardation, steps]: [f64; 2], relaxing: f64| {
+            damping_s * retardation + (steps + relaxing) * dt
+        };
+        let [before, after] = relaxation.steps;
         Self {
             stiffness,
             dt,
-            before_s: seconds(integrator.before),
-            after_s: seconds(integrator.after),
+            before_s: seconds(integrator.before, before),
+            after_s: seconds(integrator.after, after),
             geometric_s: (integrator.geometric_s)(dt),
         }
     }

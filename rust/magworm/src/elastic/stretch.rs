@@ -4,6 +4,7 @@
 //! its geometric stiffness (T/|e|) (I − t tᵀ) is the rank-one n nᵀ of each normal n, one in the plane and two
 //! in space, and enters the step as springs do. In compression it would be negative and is left out of the matrix.
 
+use super::relax::Dashpots;
 use super::rod::{Frames, Rod};
 use super::{
     Equations, MAX_STENCIL, Positions, Scheme, Springs, add_force, add_rank_one,
@@ -27,13 +28,16 @@ pub fn assemble<D: Rod, I: Isa>(
     let frames = Frames { director: &block.director, side: &block.side };
     let positions = Positions { node: &block.node, q: &block.q };
     let mut equations = Equations { matrix, rhs, v };
+    let relaxation = &model.program.relaxation;
+    let mut dashpots =
+        Dashpots::new(isa, relaxation, &mut block.stretch_dashpot, &block.running[0]);
     let mut gradient = [isa.splat(0.0); MAX_STENCIL];
-    for spring in &model.stretch {
+    for (way, spring) in model.stretch.iter().enumerate() {
         let e = spring.element;
         let stencil = &spring.stencil;
         let t = D::Vector::load(isa, &tangent[D::AXES * e..]);
         let stiffness = scheme.stiffness * spring.stiffness_n_m;
-        let strain = isa.load(&length[e]) - spring.rest_m;
+        let strain = dashpots.act(way, isa.load(&length[e]) - spring.rest_m);
         generalised_gradient::<D, I, 2>(isa, positions, stencil, &[-t, t], &mut gradient);
         let springs =
             Springs { stencil, gradients: [&gradient], strains: [strain], stiffness: [stiffness] };

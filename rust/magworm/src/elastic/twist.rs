@@ -18,6 +18,7 @@
 //! ∂σ/∂f = −γ (t_e − c t_f)/|f|, c = t_e·t_f. With x = tan(φ/2): σ = atan(x)/x and
 //! γ = (1 + x²)(1 − σ (1 + x²))/4x². Over the nodes: (−∂e, ∂e − ∂f, ∂f).
 
+use super::relax::Dashpots;
 use super::{
     Equations, MAX_STENCIL, Positions, Scheme, Springs, add_twist_gradient, generalised_gradient,
 };
@@ -37,12 +38,19 @@ pub fn assemble<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, scheme
         let strains = joint.strains(isa, block, model.scene.solver.curvature, k);
         let positions = Positions { node: &block.node, q: &block.q };
         joint.gradients(isa, positions, spring, &strains, &mut gradients);
+        let relaxation = &model.program.relaxation;
+        let mut dashpots =
+            Dashpots::new(isa, relaxation, &mut block.bend_dashpot, &block.running[0]);
+        let mut acting = [strains.first, strains.second, strains.twist];
+        for (way, strain) in acting.iter_mut().enumerate() {
+            *strain = dashpots.act(3 * k + way, *strain);
+        }
         let (matrix, rhs, v) = (&mut *block.matrix, &mut *block.rhs, &*block.spring_velocity);
         let mut equations = Equations { matrix, rhs, v };
         let springs = Springs {
             stencil: &spring.stencil,
             gradients: [&gradients[0], &gradients[1], &gradients[2]],
-            strains: [strains.first, strains.second, strains.twist],
+            strains: acting,
             stiffness: [
                 scheme.stiffness * spring.stiffness_n_m,
                 scheme.stiffness * spring.across_n_m,

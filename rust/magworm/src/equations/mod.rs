@@ -4,7 +4,8 @@
 //! (M + Δt b Σ k g gᵀ) v⁺ = M v + Δt (F − Σ k (s + a g·v) g),   q⁺ = q + Δt v⁺
 //! ```
 //!
-//! with strains s, gradients g and forces F at q, and the a and b of the integrator, see [`crate::integrate`]. All
+//! with strains s, gradients g and forces F at q, and the a and b of the integrator, see [`crate::integrate`]; branches of rubber
+//! that relaxes add to s, a and b. All
 //! integrators are solved by the same banded factorisation and the same contact solve.
 
 mod hold;
@@ -57,5 +58,6 @@ fn scheme<I: Isa>(isa: I, model: &Model, block: &Block<I::Row>) -> Scheme<I::F> 
     let factor = |parameter: Parameter| isa.load(&block.factors[parameter as usize]);
     let damping_s = factor(Parameter::Damping) * model.scene.material.damping_time_s;
     let integrator = model.scene.solver.integrator.coefficients();
-    Scheme::new(integrator, factor(Parameter::Stiffness), damping_s, model.step_s)
+    let stiffness = factor(Parameter::Stiffness);
+    Scheme::new(integrator, &model.program.relaxation, stiffness, damping_s, model.step_s)
 }

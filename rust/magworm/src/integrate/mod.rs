@@ -7,12 +7,15 @@
 //! ```
 //!
 //! with v at the start of the step and v⁺ at its end: a number on the right of A v⁺ = b, and where b is not 0 a matrix of
-//! rank one on the left. Velocities stand half a step before positions, q⁺ = q + Δt v⁺ (leapfrog, of which Newmark's
+//! rank one on the left; where rubber relaxes, so do its branches ([`Coefficients::branch`]). Velocities stand half a step before positions, q⁺ = q + Δt v⁺ (leapfrog, of which Newmark's
 //! scheme with β = 0 is another name), so forces at the start of a step are of second order.
 
 mod euler;
 mod explicit;
+mod maxwell;
 mod newmark;
+
+pub use maxwell::Maxwell;
 
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +47,9 @@ pub struct Coefficients {
     pub after: [f64; 2],
     /// a and b of the geometric stiffness, which has no retardation, for a step Δt [s].
     pub geometric_s: fn(f64) -> [f64; 2],
+    /// c, a₂ and b₂ of a Maxwell branch that fades so in a step: with its stiffness k and the strain β of its dashpot it adds
+    /// −Δt k (c (s − β) + Δt (a₂ g·v + b₂ g·v⁺)) g to the impulse of a spring.
+    pub branch: fn(Maxwell) -> [f64; 3],
     /// λ: what springs take for v is (1 − λ) v + λ v⁻, with v⁻ that of the step before.
     pub numerical_dissipation: f64,
 }

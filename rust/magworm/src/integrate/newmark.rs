@@ -9,8 +9,13 @@
 //! the method of Hilber, Hughes & Taylor (1977) older values help: Δt times the change of velocity between two steps is of
 //! second order, so the scheme remains so. A vibration of frequency ω loses ¼ λ (ω Δt)³ of its amplitude a radian, and 10 % a
 //! step where ω Δt is large; it grows for no ω Δt while λ < ½.
+//!
+//! A Maxwell branch bears its mean while the strain stands as at the start of the step, c = m: its dashpot stands half-way between two
+//! strains, as velocities do, so this is of second order too. The change of velocity acts on the stiffness m that
+//! the branch shows in a step, with β = 1 − m/2: ½ where it hardly fades, and 1 where it is a mere dashpot,
+//! whose force is then that of v⁺. A vibration grows for no ω Δt and no branches.
 
-use super::Coefficients;
+use super::{Coefficients, Maxwell};
 
 /// β.
 const BETA: f64 = 0.5;
@@ -27,5 +32,9 @@ pub(super) const COEFFICIENTS: Coefficients = Coefficients {
     before: [0.0, -BETA],
     after: [1.0, BETA],
     geometric_s: |dt| [-BETA * dt, STEADYING * dt + BETA * dt],
+    branch: |Maxwell { mean, .. }| {
+        let seen = mean * (1.0 - 0.5 * mean);
+        [mean, -seen, seen]
+    },
     numerical_dissipation: DISSIPATION,
 };

@@ -31,6 +31,7 @@ impl Model {
             _ => "about two axes and twisting",
         };
         line("bending", format!("{} nodes {ways}, {curvature}", self.bend.len()));
+        line("relaxation", self.explain_relaxation());
         if let Some(shape) = &self.shape {
             line("start", shape.explain());
         }
@@ -47,6 +48,16 @@ impl Model {
         }
         let limit = self.explicit_limit();
         format!(" of at most {:.3e} s for {}", limit.step_s, limit.reason())
+    }
+
+    fn explain_relaxation(&self) -> String {
+        let branches = &self.scene.material.relaxation;
+        if branches.is_empty() {
+            return "left out: the material has no [[relaxation]]".to_string();
+        }
+        let words = branches.iter().map(|one| format!("{} in {} s", one.ratio, one.time_s));
+        let words = words.collect::<Vec<_>>().join(", ");
+        format!("{words}: stiffness over that in the long run, relaxation time")
     }
 
     fn explain_gravity(&self) -> String {

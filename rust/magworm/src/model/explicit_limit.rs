@@ -11,7 +11,9 @@
 //!
 //! Δt ≤ (4/ω²) / (τ + √(τ² + 4/ω²)),
 //!
-//! which is 2/ω without damping and 2/(τω²) where damping dominates, τω ≫ 1. It falls with ω, so the fastest oscillation
+//! which is 2/ω without damping and 2/(τω²) where damping dominates, τω ≫ 1. Branches of rubber that relaxes are taken for springs:
+//! ω² counts (1 + Σ r) times and τ as much less. With a dashpot that takes the greatest part of a branch
+//! within a step somewhat longer ones were stable too. It falls with ω, so the fastest oscillation
 //! of the rod at rest decides, see [`super::waves`]. Multipliers hold the magnets rigid and bring no frequency of their
 //! own; contact is implicit. The limit is that of small motions about the straight rod: an element squeezed to a share s
 //! of its length bends faster by 1/s. Factors that an environment is given for itself do not count, those that a
@@ -39,14 +41,18 @@ impl Model {
     /// mass lay in the middle of their elements, see [`super::OffCentre`].
     pub fn explicit_limit(&self) -> ExplicitLimit {
         let most = waves::draw(self, Parameter::Damping, |vary| vary.high);
-        let damping_s = most * self.scene.material.damping_time_s;
-        let limits = waves::fastest(self).into_iter().map(|one| limit(one, damping_s));
+        let material = &self.scene.material;
+        let stiffer = 1.0 + material.relaxing_ratio();
+        let damping_s = most * material.damping_time_s / stiffer;
+        let limits = waves::fastest(self).into_iter().map(|one| limit(one, stiffer, damping_s));
         let shortest = limits.min_by(|a, b| a.step_s.total_cmp(&b.step_s));
         shortest.expect("every rod can stretch")
     }
 }
 
-fn limit(Fastest { wave, place, rate_s2 }: Fastest, damping_s: f64) -> ExplicitLimit {
+fn limit(fastest: Fastest, stiffer: f64, damping_s: f64) -> ExplicitLimit {
+    let Fastest { wave, place, rate_s2 } = fastest;
+    let rate_s2 = stiffer * rate_s2;
     let square_s2 = 4.0 / rate_s2;
     let step_s = square_s2 / (damping_s + (damping_s * damping_s + square_s2).sqrt());
     let step_s = if rate_s2 > 0.0 { step_s } else { f64::INFINITY };

@@ -10,6 +10,7 @@ mod line;
 mod magnet;
 mod magnetics;
 mod phases;
+mod relaxation;
 mod rigid_body;
 mod robot;
 pub(crate) mod rows;
@@ -24,6 +25,7 @@ pub use inertia::{MassPart, OffCentre};
 pub use magnet::{Carrier, Magnet};
 pub use magnetics::{Magnetics, PairModel};
 pub use phases::Phase;
+pub use relaxation::{Branch, Relaxation};
 pub use rigid_body::RigidBody;
 pub use robot::Robot;
 pub use rows::{Allowed, GREATEST, ROWS, Role, RowGroup};
@@ -89,6 +91,8 @@ pub struct Program {
     pub magnetics: Option<Magnetics>,
     /// Torque of a uniform field on the body magnets.
     pub uniform_field: Option<UniformTorque>,
+    /// Branches of rubber that relaxes.
+    pub relaxation: Relaxation,
     /// Ground contact with friction.
     pub contact: Option<ContactParameters>,
     /// What moves the sources of the field.
@@ -241,6 +245,7 @@ impl Program {
                 field_t: [field.x_t, field.y_t, field.z_t],
                 magnets: held.iter().map(|magnet| UniformField::new(magnet.cuboid())).collect(),
             }),
+            relaxation: Relaxation::new(scene),
             contact: scene
                 .ground
                 .as_ref()

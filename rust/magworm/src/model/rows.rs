@@ -95,6 +95,11 @@ macro_rules! block_rows {
                 director: "1", |m| in_space(m, 6 * (m.nodes() - 1)) => Allowed::Frames;
                 /// In space twist of each bending node, beyond ±π where it has gone there, shape [bending nodes].
                 twist: "rad", |m| in_space(m, m.bend.len());
+                /// Strain of the dashpots of rubber that relaxes beside each axial spring, shape [axial springs × branches]. With Euler's scheme
+                /// they are a step behind the unknowns, else half a step ahead.
+                stretch_dashpot: "m", |m| m.program.relaxation.branches.len() * m.stretch.len();
+                /// The same beside the springs that bend and twist, shape [bending nodes × branches], in space [bending nodes × 3 × branches].
+                bend_dashpot: "rad", |m| m.program.relaxation.branches.len() * m.sizes().rotations * m.bend.len();
                 /// Force and torque of the drive on each body where they act for several steps, see
                 /// [`crate::model::Magnetics::interval`], shape [bodies × 3], in space [bodies × 6]; else none.
                 wrench: "N, N·m", held_wrenches;

@@ -7,8 +7,8 @@
 
 use super::Mesh;
 use crate::lanes::math::{degrees, sin_cos};
-use crate::scene::Scene;
 use crate::scene::bends::{angle_rad, curvature, strains};
+use crate::scene::{Curvature, Scene};
 use nalgebra::Vector3;
 
 /// A bent body in the axes of its head element: tangent, up, side.
@@ -42,6 +42,18 @@ impl Shape {
         };
         let (angle, twist) = (greatest(&angle_rad), greatest(&|[_, _, twist]| twist.abs()));
         format!("bent by up to {angle:.1}° and twisted by up to {twist:.1}° at a node")
+    }
+
+    /// The strains of each bending node in the measure of a law, see [`crate::elastic`] (`twist.rs`).
+    pub fn measured(&self, law: Curvature) -> impl Iterator<Item = [f64; 3]> {
+        self.strains.iter().map(move |&strain| {
+            let [first, second, twist] = strain;
+            let scale = match law {
+                Curvature::Angle => 1.0,
+                Curvature::Tangent => tangent_over_angle(angle_rad(strain)),
+            };
+            [first * scale, second * scale, twist]
+        })
     }
 
     fn with_strains(mesh: &Mesh, strains: Vec<[f64; 3]>) -> Self {
@@ -85,4 +97,10 @@ fn next_frame(
 /// A vector turned about a unit axis by an angle of that sine and cosine (Rodrigues).
 fn turned(a: Vector3<f64>, axis: Vector3<f64>, (sin, cos): (f64, f64)) -> Vector3<f64> {
     a * cos + axis.cross(&a) * sin + axis * (axis.dot(&a) * (1.0 - cos))
+}
+
+/// 2 tan(φ/2)/φ.
+fn tangent_over_angle(angle_rad: f64) -> f64 {
+    let (sin, cos) = sin_cos(0.5 * angle_rad);
+    if angle_rad == 0.0 { 1.0 } else { 2.0 * sin / (cos * angle_rad) }
 }

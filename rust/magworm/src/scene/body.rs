@@ -182,11 +182,15 @@ impl SegmentMagnet {
     }
 }
 
-/// Rubber: linear elastic with Kelvin–Voigt damping, σ = E (ε + τ ε̇).
+/// Rubber: linear elastic with Kelvin–Voigt damping, σ = E (ε + τ ε̇), and where it relaxes with a Maxwell branch for each
+/// time in which it does: σ = E (ε + τ ε̇ + Σ rᵢ (ε − βᵢ)), β̇ᵢ = (ε − βᵢ)/τᵢ, the generalised Maxwell solid or Prony series.
+///
+/// One branch is the standard linear solid: with x = ωτ₁ it stores E′ = E (1 + r x²/(1 + x²)) and loses E″ = E r x/(1 + x²), at
+/// most tan δ = r/(2√(1 + r)), at x = 1/√(1 + r).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E [Pa].
+    /// Young's modulus E [Pa]; where the rubber relaxes, that in the long run.
     pub youngs_modulus_pa: f64,
     /// Density [kg/m³].
     pub density_kg_m3: f64,
@@ -197,6 +201,26 @@ pub struct Material {
     /// body. Rubber hardly changes its volume: 0.5.
     #[serde(default = "incompressible")]
     pub poisson_ratio: f64,
+    /// Maxwell branches; none: the rubber does not relax. At a start they have relaxed in its shape.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub relaxation: Vec<Relaxation>,
+}
+
+impl Material {
+    /// What stands beside the modulus of the long run before any branch relaxes: Σ r.
+    pub fn relaxing_ratio(&self) -> f64 {
+        self.relaxation.iter().map(|branch| branch.ratio).sum()
+    }
+}
+
+/// A Maxwell branch of the rubber.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Relaxation {
+    /// r: its stiffness over that in the long run.
+    pub ratio: f64,
+    /// Its relaxation time [s].
+    pub time_s: f64,
 }
 
 /// A cuboid permanent magnet of the body, magnetised along its height.

@@ -8,6 +8,8 @@ use super::schema::{Kind, Table, Variant, optional, real, required, whole};
 
 /// Most magnets in a body.
 pub(super) const MAX_MAGNETS: i64 = 32;
+/// Most branches of a rubber that relaxes.
+const MAX_BRANCHES: usize = 16;
 /// Most segments of a body.
 const MAX_SEGMENTS: usize = 100;
 /// Shortest rod element [m]: shorter ones make the stiffness of a step too badly scaled to solve.
@@ -137,7 +139,12 @@ static MATERIAL: Table = Table {
         required("density_kg_m3", DENSITY),
         optional("damping_time_s", real("s", 0.0, 1.0)),
         optional("poisson_ratio", real("", 0.0, 0.5)),
+        optional("relaxation", Kind::List { of: &Kind::Table(&RELAXATION), most: MAX_BRANCHES }),
     ],
+};
+
+static RELAXATION: Table = Table {
+    fields: &[required("ratio", real("", 0.0, 100.0)), required("time_s", real("s", 1e-6, 1e4))],
 };
 
 static MAGNET: Table = Table {

@@ -33,7 +33,8 @@ mod validate;
 
 pub use crate::integrate::Integrator;
 pub use body::{
-    Body, Clamp, Magnet, Material, Rod, RodMagnet, Segment, SegmentMagnet, Segments, Worm,
+    Body, Clamp, Magnet, Material, Relaxation, Rod, RodMagnet, Segment, SegmentMagnet, Segments,
+    Worm,
 };
 pub use contact_point::{ContactPoint, Frame};
 #[doc(hidden)] // for the project's own tests

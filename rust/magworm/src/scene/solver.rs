@@ -151,7 +151,7 @@ pub struct Variation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Parameter {
-    /// Young's modulus.
+    /// Young's modulus, and with it the stiffness of every branch that relaxes.
     Stiffness,
     /// Kelvin–Voigt retardation time.
     Damping,

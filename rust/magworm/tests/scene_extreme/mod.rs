@@ -4,7 +4,7 @@ use magworm::scene::*;
 use proptest::prelude::*;
 
 use crate::scene_strategy::dice::{Dice, dice};
-use crate::scene_strategy::{bends, with_interval, within_the_limit};
+use crate::scene_strategy::{bends, relaxation, with_interval, within_the_limit};
 
 /// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
 const RUBBER_KG_M3: f64 = 1070.0;
@@ -12,7 +12,7 @@ const RUBBER_KG_M3: f64 = 1070.0;
 /// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
     let shape = dice(bends::NUMBERS);
-    (dice(16), dice(24), dice(24), dice(40), shape).prop_map(
+    (dice(16), dice(24), dice(32), dice(40), shape).prop_map(
         move |(mut body, mut world, mut rest, mut parts, mut shape)| {
             let (body, magnet) = robot_or_rod(&mut body, most_nodes);
             let solver = solver(&mut rest);
@@ -29,6 +29,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     density_kg_m3: RUBBER_KG_M3 * rest.decades(1e-3, 10.0),
                     damping_time_s: if rest.coin() { 0.0 } else { rest.decades(1e-5, 1.0) },
                     poisson_ratio: 0.5,
+                    relaxation: relaxation(&mut rest),
                 },
                 magnet: Some(magnet),
                 drive: (rest.between(0.0, 1.0) < 0.8).then(|| drive(&mut world, motion)),

@@ -24,7 +24,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
         prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
     let shape = dice(bends::NUMBERS);
-    (body, drive, ground, field, time, dice(10), dice(22), ".{0,12}", shape)
+    (body, drive, ground, field, time, dice(18), dice(22), ".{0,12}", shape)
         .prop_map(
             move |(
                 (body, magnet),
@@ -110,7 +110,16 @@ fn material(dice: &mut Dice) -> Material {
         density_kg_m3: dice.decades(1.0, 1e5),
         damping_time_s: if dice.coin() { 0.0 } else { dice.decades(1e-6, 1.0) },
         poisson_ratio: dice.between(0.0, 0.5),
+        relaxation: relaxation(dice),
     }
+}
+
+/// Up to three branches that relax in any time; every other rubber has none.
+pub fn relaxation(dice: &mut Dice) -> Vec<Relaxation> {
+    let count = if dice.coin() { 0 } else { dice.whole(1, 3) };
+    let branch =
+        |_| Relaxation { ratio: dice.decades(1e-3, 100.0), time_s: dice.decades(1e-6, 1e4) };
+    (0..count).map(branch).collect()
 }
 
 fn ground(dice: &mut Dice) -> Ground {

@@ -40,6 +40,14 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("material.damping_time_s", "1e-4"),
         ],
     ),
+    (
+        "relaxing rubber",
+        "paper-3",
+        &[(
+            "material.relaxation",
+            "[{ ratio = 0.34, time_s = 0.084 }, { ratio = 0.1, time_s = 5e-4 }]",
+        )],
+    ),
     ("uniform field", "paper-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
     (
         "dipoles with varied parameters",
@@ -150,6 +158,18 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("material.damping_time_s", "2e-5"),
             // Short elements bend fast to the side, where the body is wide.
             ("body.elements_per_bridge", "2"),
+        ],
+    ),
+    (
+        "relaxing rubber in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("start.bends_aside_deg", "[20, -15]"),
+            ("solver.integrator", "'euler'"),
+            ("material.relaxation", "[{ ratio = 0.5, time_s = 0.02 }]"),
+            ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
         ],
     ),
     (

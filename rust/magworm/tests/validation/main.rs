@@ -27,6 +27,8 @@ mod magnet_wrench;
 mod oblique;
 mod odd_bodies;
 mod off_centre;
+mod relaxing;
+mod relaxing_stability;
 mod space_asymmetric;
 mod space_bending;
 mod space_buckling;
