@@ -1,5 +1,6 @@
 """Fitting many robots that share parameters to claims about their curves."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,6 +21,10 @@ from magworm_gym.identification.settings import SearchSettings
 from magworm_gym.identification.sweep import LANES, Passes, Sweep
 
 REPOSITORY = Path(__file__).parent.parent
+sys.path.insert(0, str(REPOSITORY))
+
+from studies.paper.passes import FRICTIONS, Walk, measured_strides  # noqa: E402  (from the repository)
+
 JOINT = REPOSITORY / "studies/identification/paper-joint.toml"
 ROBOT = {
     "body.width_m": 0.0155,
@@ -117,7 +122,7 @@ def test_a_robot_of_a_sweep_does_what_a_scene_of_its_own_does_bit_for_bit():
         alone = record_scenes([scene], recording.time_s[-1], 0.01, nodes=False)[0]
         assert np.array_equal(recording.magnet_poses, alone.magnet_poses)
         way_m = 0.1 + scene.body_length_m
-        assert recording.time_s[-1] == pytest.approx(way_m / speed_m_s, abs=0.01)
+        assert recording.time_s[-1] == pytest.approx(way_m / speed_m_s + sweep.settle_s, abs=0.01)
 
 
 def test_conditions_are_factors_of_the_scene_and_more_lanes_than_a_block_has():
@@ -155,6 +160,14 @@ def test_strides_on_a_belt_are_those_of_a_pass():
     )
     assert one > 1e-3
     assert two == pytest.approx(one, rel=0.1)
+
+
+def test_strides_of_a_sweep_are_those_that_the_page_of_the_paper_measures():
+    conditions = tuple({"static_friction": factor} for factor in FRICTIONS)
+    curve_m = curve_of(sweep := Sweep("three", moving(0.2), (0.2,), conditions), STRIDE)
+    stride_m = curve_m.values(sweep.record({}, 0.01)).mean()
+    (measured,) = measured_strides([Walk(moving(0.2), 0.2)])
+    assert stride_m == pytest.approx(measured.mean_m, abs=1e-4)
 
 
 # Claims

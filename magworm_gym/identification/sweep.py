@@ -66,7 +66,8 @@ class Sweep:
         conditions: Factors of the scene's values by name (C,); results are averaged over them.
         backward: Whether the drive moves from tail to head.
         ahead_m: How far ahead of the end that it meets first the drive starts [m].
-        beyond_m: How far beyond the other end a single drive magnet ends [m].
+        beyond_m: How far beyond the other end a single drive magnet has passed [m].
+        settle_s: How long the robot is given from then on, while the drive moves on [s].
         belt: Passes that are measured where the drive is a belt.
         known: Paths that it sets itself; a parameter of the same path is not fitted here.
     """
@@ -78,6 +79,7 @@ class Sweep:
     backward: bool = False
     ahead_m: float = 0.05
     beyond_m: float = 0.05
+    settle_s: float = 0.25
     belt: Passes | None = None
     known: frozenset[str] = field(default_factory=frozenset)
 
@@ -99,8 +101,7 @@ class Sweep:
     @property
     def simulated_s(self) -> float:
         """Simulated time of a candidate, all its robots together, before parameters are set [s]."""
-        way_m = self._ways_m(self.scene)[-1]
-        return sum(way_m / lane.speed_m_s for lanes in self.lanes for lane in lanes)
+        return sum(self._span_s(self.scene, lane)[1] for lanes in self.lanes for lane in lanes)
 
     def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
         """Every robot from the beginning to the end of the passes that are measured, by its lane's name.
@@ -122,9 +123,9 @@ class Sweep:
         return recordings
 
     def _side_by_side(self, scene: Scene, lanes: list[Lane], sample_s: float) -> dict[str, Recording]:
-        first_m, last_m = self._ways_m(scene)
         batch = _batch(scene, lanes, self.speeds_m_s[0])
-        samples = ceil(last_m / lanes[0].speed_m_s / sample_s)
+        spans = [_samples(self._span_s(scene, lane), sample_s) for lane in lanes]
+        samples = max(last for _, last in spans)
         start = batch.magnet_poses()[None]
         unused = np.zeros((samples, len(lanes), sum(each.size for each in batch.action_specification)))
         seen = batch.rollout(unused, magnet_poses=True)
@@ -136,20 +137,27 @@ class Sweep:
             lane.name: _recording(
                 poses[:, at],
                 present,
-                (round(first_m / lane.speed_m_s / sample_s), ceil(last_m / lane.speed_m_s / sample_s)),
+                spans[at],
                 sample_s,
                 int(seen.status[-1, at]),
             )
             for at, lane in enumerate(lanes)
         }
 
-    def _ways_m(self, scene: Scene) -> tuple[float, float]:
-        """Way of the drive when what is measured begins, and when it ends [m]."""
+    def _span_s(self, scene: Scene, lane: Lane) -> tuple[float, float]:
+        """When what is measured begins and when it ends [s]; on a belt, halfway between its magnets."""
         if self.belt is None:
-            return 0.0, self.ahead_m + scene.body_length_m + self.beyond_m
+            way_m = self.ahead_m + scene.body_length_m + self.beyond_m
+            return 0.0, way_m / lane.speed_m_s + self.settle_s
         middle_m = self.ahead_m + 0.5 * scene.body_length_m - 0.5 * self.belt.pitch_m
         first_m = max(0.0, middle_m + self.belt.first * self.belt.pitch_m)
-        return first_m, middle_m + (self.belt.first + self.belt.count) * self.belt.pitch_m
+        last_m = middle_m + (self.belt.first + self.belt.count) * self.belt.pitch_m
+        return first_m / lane.speed_m_s, last_m / lane.speed_m_s
+
+
+def _samples(span_s: tuple[float, float], sample_s: float) -> tuple[int, int]:
+    """First and last sample of a span of time."""
+    return round(span_s[0] / sample_s), ceil(span_s[1] / sample_s)
 
 
 def _batch(scene: Scene, lanes: list[Lane], scene_speed_m_s: float) -> Batch:

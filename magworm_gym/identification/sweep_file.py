@@ -51,6 +51,7 @@ def _setting(table: Table) -> dict[str, Any]:
         "backward": table.choice("direction", "forward", ("forward", "backward")) == "backward",
         "ahead_m": table.number("ahead_m", 0.05, low=0.0, high=1.0),
         "beyond_m": table.number("beyond_m", 0.05, low=0.0, high=1.0),
+        "settle_s": table.number("settle_s", 0.25, low=0.0, high=60.0),
         "height_m": table.number("height_m", -0.022, low=-1.0, high=1.0),
         "belt": _belt(table),
     }

@@ -14,6 +14,7 @@ without it; a run that was stopped goes on, one that is done is kept. From them 
 import argparse
 import json
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,9 @@ Floats = NDArray[np.float64]
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs/identification/joint.md"
 ENSEMBLE = HERE / "ensemble"
+
+SETTINGS = ("restarts", "generations", "scatter", "rounds")
+"""Settings of the search that can be given."""
 
 WITHIN = 1.3
 """Times the least loss of all runs that a robot of the ensemble may have."""
@@ -82,14 +86,18 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("runs/joint"), help="folder of the runs")
     parser.add_argument("--seeds", type=int, default=8, help="blind starts of each problem")
     parser.add_argument("--crossed", type=int, default=2, help="blind starts without each group of claims")
+    for setting in SETTINGS:
+        parser.add_argument(f"--{setting}", type=int, help="in place of what the problem file says")
     parser.add_argument("--page", type=Path, default=PAGE)
     parser.add_argument("--ensemble", type=Path, default=ENSEMBLE)
     arguments = parser.parse_args()
+    given = {key: value for key in SETTINGS if (value := getattr(arguments, key)) is not None}
+    run = partial(finished, arguments.out, given)
     blind, crossed = [], []
     for problem in arguments.problems:
-        blind += [finished(arguments.out, problem, seed) for seed in range(arguments.seeds)]
+        blind += [run(problem, seed) for seed in range(arguments.seeds)]
         for group in groups(blind[-1].problem):
-            crossed += [finished(arguments.out, problem, seed, group) for seed in range(arguments.crossed)]
+            crossed += [run(problem, seed, group) for seed in range(arguments.crossed)]
     chosen = ensemble(blind)
     write_ensemble(arguments.ensemble, blind, chosen)
     arguments.page.parent.mkdir(parents=True, exist_ok=True)
@@ -102,9 +110,9 @@ def groups(problem: Problem) -> list[str]:
     return list(dict.fromkeys(claim.group for claim in claims if claim.group))
 
 
-def finished(out: Path, file: Path, seed: int, without: str = "") -> Search:
+def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without: str = "") -> Search:
     """A run from a blind start, done now where it was not before."""
-    problem = read_problem(file, {"seed": seed, "blind": True}, [without] if without else [])
+    problem = read_problem(file, {**settings, "seed": seed, "blind": True}, [without] if without else [])
     folder = out / f"{file.stem}-{seed}{f'-without-{without}' if without else ''}"
     if not (folder / "report.json").exists():
         print(folder, flush=True)
