@@ -24,7 +24,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs study-peak identify test bench count count-write wheel lint format docs clean install \
+.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs study-peak identify identify-joint test bench count count-write wheel lint format docs clean install \
 	lint-layers lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	count-program need-cargo need-python need-rust-checks need-valgrind force
 
@@ -73,6 +73,9 @@ identify: install-test  ## identify the presets again, half an hour: docs/identi
 		$(VENV_PYTHON) studies/identification/settle_presets.py $$problem && \
 		$(MAKE) install || exit 1; \
 	done
+
+identify-joint: install-test  ## one robot for all figures, from blind starts, for hours: docs/identification/joint.md
+	$(VENV_PYTHON) studies/identification/joint.py --problems studies/identification/paper-joint*.toml
 
 ##@ Parts
 

@@ -10,7 +10,8 @@ from magworm_gym.cli.flags import add_constant_drive, add_set, constant_drive, s
 from magworm_gym.cli.progress_bar import ProgressBar
 from magworm_gym.identification.identify import Identification, identify
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.problem import Problem, make_problem, read_problem
+from magworm_gym.identification.problem import Problem, make_problem
+from magworm_gym.identification.problem_file import read_problem
 from magworm_gym.identification.report import write_results
 
 DESCRIPTION = """\

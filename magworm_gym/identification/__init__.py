@@ -14,7 +14,8 @@ from magworm_gym.identification.example_tracks import Blur, write_example_tracks
 from magworm_gym.identification.findings import Finding
 from magworm_gym.identification.identify import Identification, identify
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.problem import Problem, make_problem, read_problem
+from magworm_gym.identification.problem import Problem, make_problem
+from magworm_gym.identification.problem_file import read_problem
 from magworm_gym.identification.report import write_results
 from magworm_gym.identification.settings import SearchSettings
 

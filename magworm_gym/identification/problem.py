@@ -1,17 +1,15 @@
-"""What is to be identified from what: the problem file."""
+"""What is to be identified from what."""
 
 import hashlib
 import json
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import ceil
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from magworm_gym import __version__
 from magworm_gym._magworm import Scene, SceneError
-from magworm_gym.arguments import path_of
 from magworm_gym.identification.claim_file import read_claim
 from magworm_gym.identification.claims import Claim
 from magworm_gym.identification.experiment import Experiment, Run, edited_scene
@@ -22,7 +20,7 @@ from magworm_gym.identification.parameters import ParameterSpace, read_parameter
 from magworm_gym.identification.settings import SearchSettings, read_settings
 from magworm_gym.identification.sweep import Sweep
 from magworm_gym.identification.sweep_file import read_sweeps
-from magworm_gym.identification.table import Table, parse_toml, read_text
+from magworm_gym.identification.table import Table, parse_toml
 from magworm_gym.identification.targets import Aim
 from magworm_gym.scene import load_scene
 
@@ -86,58 +84,6 @@ class Problem:
         if self.settings.fits_within is not None:
             return self.settings.fits_within * loss
         return threshold(loss, self.measurements, len(self.space))
-
-
-def read_problem(
-    path: str | PathLike[str],
-    search: Mapping[str, Any] | None = None,
-    without: Collection[str] = (),
-    values: Mapping[str, Any] | None = None,
-) -> Problem:
-    """Reads a problem file.
-
-    Args:
-        path: The TOML file; files that it names are relative to its folder.
-        search: Settings of the search that replace those of the file.
-        without: Groups of claims that are not fitted, only reported.
-        values: Values of the scene that replace those of the file.
-
-    Raises:
-        ProblemError: A mistake in it or in a file that it names.
-    """
-    path = path_of("path", path)
-    given = {"search": dict(search or {}), "values": dict(values or {})}
-    entries = _merged(_entries(path), {key: each for key, each in given.items() if each})
-    if without:
-        entries = {**entries, "without": sorted(without)}
-    try:
-        return make_problem(entries, path.parent)
-    except ProblemError as error:
-        raise ProblemError(f"{path}: {error}") from error
-
-
-def _entries(path: Path, most: int = 8) -> dict[str, Any]:
-    """What a file holds and the file that it is like: it adds to tables and replaces lists."""
-    entries = parse_toml(read_text(path, "problem file"), str(path))
-    like = entries.pop("like", None)
-    if like is None:
-        return entries
-    if not isinstance(like, str) or not most:
-        raise ProblemError(
-            f"{path}: like is {like!r}; allowed: another problem file that is not like this one"
-        )
-    return _merged(_entries(path.parent / like, most - 1), entries)
-
-
-def _merged(entries: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
-    both = {
-        key: {**entries[key], **value} for key, value in others.items() if _tables(entries.get(key), value)
-    }
-    return {**entries, **others, **both}
-
-
-def _tables(*values: object) -> bool:
-    return all(isinstance(value, dict) for value in values)
 
 
 def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:

@@ -61,7 +61,7 @@ class Sweep:
 
     Attributes:
         name: Its name.
-        scene: The scene with a drive in constant motion, before parameters are set.
+        scene: The scene with a drive in constant motion, before parameters, its start and speed are set.
         speeds_m_s: Speeds of the drive (S,), rising [m/s].
         conditions: Factors of the scene's values by name (C,); results are averaged over them.
         backward: Whether the drive moves from tail to head.
@@ -114,8 +114,9 @@ class Sweep:
             SceneError: The scene cannot be simulated.
         """
         scene = fitted_scene(self, values)
-        ahead_m = scene.body_length_m + self.ahead_m if self.backward else -self.ahead_m
-        scene = scene.with_values({"drive.motion.x_m": ahead_m, "control.step_s": sample_s})
+        start_m, sign = (scene.body_length_m + self.ahead_m, -1.0) if self.backward else (-self.ahead_m, 1.0)
+        motion = {"drive.motion.x_m": start_m, "drive.motion.speed_m_s": sign * self.speeds_m_s[0]}
+        scene = scene.with_values({**motion, "control.step_s": sample_s})
         lanes = sorted((lane for row in self.lanes for lane in row), key=lambda lane: lane.speed_m_s)
         recordings: dict[str, Recording] = {}
         for first in range(0, len(lanes), LANES):
@@ -123,7 +124,7 @@ class Sweep:
         return recordings
 
     def _side_by_side(self, scene: Scene, lanes: list[Lane], sample_s: float) -> dict[str, Recording]:
-        batch = _batch(scene, lanes, self.speeds_m_s[0])
+        batch = self._batch(scene, lanes)
         spans = [_samples(self._span_s(scene, lane), sample_s) for lane in lanes]
         samples = max(last for _, last in spans)
         start = batch.magnet_poses()[None]
@@ -144,6 +145,17 @@ class Sweep:
             for at, lane in enumerate(lanes)
         }
 
+    def _batch(self, scene: Scene, lanes: list[Lane]) -> Batch:
+        """A batch at its start with the speeds and factors of its lanes."""
+        count = len(lanes)
+        batch = Batch(scene, count, threads=1)
+        batch.set_parameter(SPEED, [lane.speed_m_s / self.speeds_m_s[0] for lane in lanes])
+        for name in lanes[0].factors:
+            batch.set_parameter(name, [lane.factors[name] for lane in lanes])
+        nought = np.zeros(count, np.uint64)
+        batch.reset(np.ones(count, np.bool_), nought, nought)
+        return batch
+
     def _span_s(self, scene: Scene, lane: Lane) -> tuple[float, float]:
         """When what is measured begins and when it ends [s]; on a belt, halfway between its magnets."""
         if self.belt is None:
@@ -158,18 +170,6 @@ class Sweep:
 def _samples(span_s: tuple[float, float], sample_s: float) -> tuple[int, int]:
     """First and last sample of a span of time."""
     return round(span_s[0] / sample_s), ceil(span_s[1] / sample_s)
-
-
-def _batch(scene: Scene, lanes: list[Lane], scene_speed_m_s: float) -> Batch:
-    """A batch at its start with the speeds and factors of its lanes."""
-    count = len(lanes)
-    batch = Batch(scene, count, threads=1)
-    batch.set_parameter(SPEED, [lane.speed_m_s / scene_speed_m_s for lane in lanes])
-    for name in lanes[0].factors:
-        batch.set_parameter(name, [lane.factors[name] for lane in lanes])
-    nought = np.zeros(count, np.uint64)
-    batch.reset(np.ones(count, np.bool_), nought, nought)
-    return batch
 
 
 def _recording(

@@ -107,10 +107,9 @@ def _belt(table: Table) -> Passes | None:
 
 def _sweep(table: Table, name: str, base: Scene, values: dict[str, Any], setting: dict[str, Any]) -> Sweep:
     setting = dict(setting)
-    height_m, backward, belt = setting.pop("height_m"), setting["backward"], setting["belt"]
-    speed_m_s = setting["speeds_m_s"][0] * (-1.0 if backward else 1.0)
+    height_m, belt = setting.pop("height_m"), setting["belt"]
     drive: dict[str, Any] = {
-        "drive.motion": {"kind": "constant", "x_m": 0.0, "y_m": height_m, "speed_m_s": speed_m_s},
+        "drive.motion": {"kind": "constant", "x_m": 0.0, "y_m": height_m, "speed_m_s": 0.0},
         "reset.vary": [],
     }
     if belt is not None:
