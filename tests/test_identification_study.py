@@ -1,0 +1,96 @@
+"""The study of the joint identification: blind starts, cross-validation, ensemble, judging."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent.parent))
+
+from magworm_gym import Scene
+from magworm_gym.identification import read_problem
+from magworm_gym.identification.evaluation import Evaluator
+from studies.identification import joint, judge
+
+PROBLEM = """
+scene = "paper-3"
+sample_s = 0.01
+[search]
+restarts = 2
+population = 5
+generations = 3
+scatter = 8
+rounds = 1
+fits_within = 3.0
+[values]
+"drive.motion" = { kind = "constant", x_m = -0.05, y_m = -0.022, speed_m_s = 0.1 }
+[parameters]
+"material.youngs_modulus_pa" = { low = 45e3, high = 60e3 }
+"ground.adhesion_n" = { low = 0.0, high = 9e-3 }
+"drive.motion.y_m" = { low = -0.023, high = -0.021 }
+[[sweep]]
+name = "three"
+speeds_m_s = [0.2, 0.4]
+[[claim]]
+name = "three: stride"
+kind = "value"
+curve = "three.stride_m"
+at_m_s = 0.4
+value = 3e-3
+within = 3e-3
+scale = 1e-3
+group = "stride"
+[[claim]]
+name = "three: peak"
+kind = "value"
+curve = "three.peak_m.1"
+over_m_s = [0.2, 0.4]
+value = 8e-3
+within = 6e-3
+scale = 1e-3
+"""
+
+
+@pytest.fixture
+def problem_file(tmp_path):
+    path = tmp_path / "small.toml"
+    path.write_text(PROBLEM)
+    return path
+
+
+def test_blind_starts_are_run_once_and_give_a_page_and_an_ensemble(tmp_path, monkeypatch, problem_file):
+    runs, page, robots = tmp_path / "runs", tmp_path / "joint.md", tmp_path / "robots"
+    words = ["--problems", problem_file, "--out", runs, "--page", page, "--ensemble", robots]
+    words += ["--seeds", 2, "--crossed", 1, "--scatter", 9]
+    monkeypatch.setattr(sys, "argv", ["joint.py", *map(str, words)])
+    joint.main()
+    assert sorted(folder.name for folder in runs.iterdir()) == [
+        "small-0",
+        "small-0-without-stride",
+        "small-1",
+    ]
+    text = page.read_text()
+    assert "| stride | small-0-without-stride |" in text and "`ground.adhesion_n`" in text
+    problem = read_problem(problem_file)
+    scenes = [Scene.from_toml(path.read_text()) for path in sorted(robots.iterdir())]
+    assert len(scenes) in (1, 2)
+    kept = np.load(runs / "small-0/candidates.npz")["units"]
+    monkeypatch.setattr(joint, "identify", None)
+    page.unlink()
+    joint.main()
+    assert page.read_text() == text
+    assert np.array_equal(np.load(runs / "small-0/candidates.npz")["units"], kept)
+    assert len(problem.fitted) == 2
+
+
+def test_a_scene_is_judged_by_its_own_values(tmp_path, problem_file):
+    problem = read_problem(problem_file)
+    unit = np.array([0.25, 0.5, 0.75])
+    (tmp_path / "robot.toml").write_text(
+        problem.base.with_values(problem.space.scene_values(unit)).to_toml(), encoding="utf-8"
+    )
+    told = "\n".join(judge.table(problem, str(tmp_path / "robot.toml")))
+    outcomes = Evaluator(problem).outcomes(unit)
+    assert f"loss {sum(outcome.loss for outcome in outcomes):.4g}" in told
+    assert all(f"| {outcome.model:.4g} |" in told for outcome in outcomes)
