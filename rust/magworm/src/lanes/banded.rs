@@ -43,28 +43,48 @@ macro_rules! unrolled {
 }
 pub(super) use unrolled;
 
+/// Two unknowns of a stencil that no compiled kernel couples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutOfReach {
+    /// The lower one.
+    pub from: usize,
+    /// The higher one.
+    pub to: usize,
+}
+
 /// Shape of a symmetric banded matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Band {
     size: usize,
     half_bandwidth: usize,
+    /// Half-bandwidths that it may have, in ascending order.
+    compiled: &'static [usize],
 }
 
 impl Band {
     /// The shape of a diagonal matrix with `size` rows.
     pub fn diagonal(size: usize) -> Self {
-        Self { size, half_bandwidth: COMPILED[0] }
+        Self::compiled_for(size, &COMPILED)
+    }
+
+    /// The same, where kernels are compiled for some half-bandwidths only.
+    pub(super) fn compiled_for<const N: usize>(size: usize, compiled: &'static [usize; N]) -> Self {
+        const { assert!(N > 0) };
+        Self { size, half_bandwidth: compiled[0], compiled }
     }
 
     /// Makes room for entries between all pairs of the given unknowns.
     ///
-    /// # Panics
-    /// If two of them are more than sixteen apart: no stencil reaches further.
-    pub fn couple(&mut self, dofs: &[usize]) {
-        let (Some(lowest), Some(highest)) = (dofs.iter().min(), dofs.iter().max()) else { return };
-        let needed = self.half_bandwidth.max(highest - lowest);
-        let compiled = COMPILED.into_iter().find(|&h| h >= needed);
-        self.half_bandwidth = compiled.expect("a stencil reaches no further than sixteen unknowns");
+    /// # Errors
+    /// Two of them are further apart than kernels are compiled for.
+    pub fn couple(&mut self, unknowns: &[usize]) -> Result<(), OutOfReach> {
+        let (Some(&from), Some(&to)) = (unknowns.iter().min(), unknowns.iter().max()) else {
+            return Ok(());
+        };
+        let needed = self.half_bandwidth.max(to - from);
+        let found = self.compiled.iter().find(|&&h| h >= needed);
+        self.half_bandwidth = *found.ok_or(OutOfReach { from, to })?;
+        Ok(())
     }
 
     /// Number of rows.
@@ -236,6 +256,15 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
+    #[test]
+    fn a_stencil_beyond_the_compiled_bands_is_told_and_changes_nothing() {
+        let mut band = Band::diagonal(40);
+        assert_eq!(band.couple(&[3, 9, 19]), Ok(()));
+        let before = band.clone();
+        assert_eq!(band.couple(&[9, 21, 4]), Err(OutOfReach { from: 4, to: 21 }));
+        assert_eq!(band, before);
+    }
+
     /// A random symmetric matrix of the given shape, dense and banded, dominant or a saddle point.
     fn matrices(band: &Band, numbers: &[f64]) -> (DMatrix<f64>, Vec<[f64; 1]>) {
         let n = band.size();
@@ -264,7 +293,7 @@ mod tests {
             size in 17usize..30,
         ) {
             let mut band = Band::diagonal(size);
-            band.couple(&[0, span]);
+            prop_assert!(band.couple(&[0, span]).is_ok());
             let (dense, mut packed) = matrices(&band, &numbers);
             let rhs = DVector::from_iterator(size, numbers.iter().copied().take(size));
             let expected = dense.lu().solve(&rhs).unwrap();

@@ -15,24 +15,27 @@
 mod segment;
 
 use super::Isa;
-use super::banded::{Band, vectorized};
+use super::banded::{Band, OutOfReach, vectorized};
 use segment::{Parts, recover};
 use std::ops::Range;
 
 /// Unknowns of a body in space.
 const BODY_IN_SPACE: usize = 6;
+/// Half-bandwidths of segments between bodies that kernels are compiled for: with three unknowns a body, and with six. No number
+/// stands in both.
+const COMPILED_IN_PLANE: [usize; 3] = [5, 6, 8];
+const COMPILED_IN_SPACE: [usize; 3] = [10, 11, 13];
 
 /// Calls with half-bandwidth H, length of a row, and unknowns of a body K as constants.
 macro_rules! dispatch {
     ($chain:expr, $h:ident, $row:ident, $k:ident => $work:block) => {
-        match ($chain.band.half_bandwidth(), $chain.body) {
-            (5, 3) => dispatch!(5, 6, 3, $h, $row, $k, $work),
-            (6, 3) => dispatch!(6, 7, 3, $h, $row, $k, $work),
-            (8, 3) => dispatch!(8, 9, 3, $h, $row, $k, $work),
-            (10, _) => dispatch!(10, 11, 6, $h, $row, $k, $work),
-            (11, _) => dispatch!(11, 12, 6, $h, $row, $k, $work),
-            (13, _) => dispatch!(13, 14, 6, $h, $row, $k, $work),
-            (h, k) => unreachable!("segments of half-bandwidth {h} between bodies of {k} unknowns"),
+        match $chain.band.half_bandwidth() {
+            5 => dispatch!(5, 6, 3, $h, $row, $k, $work),
+            6 => dispatch!(6, 7, 3, $h, $row, $k, $work),
+            8 => dispatch!(8, 9, 3, $h, $row, $k, $work),
+            10 => dispatch!(10, 11, 6, $h, $row, $k, $work),
+            11 => dispatch!(11, 12, 6, $h, $row, $k, $work),
+            _ => dispatch!(13, 14, 6, $h, $row, $k, $work),
         }
     };
     ($H:literal, $ROW:literal, $K:literal, $h:ident, $row:ident, $k:ident, $work:block) => {{
@@ -82,42 +85,60 @@ impl Chain {
 
     /// The shape of a diagonal system of `size` unknowns of which bodies of `body` unknowns each are kept, given by
     /// their first unknowns in ascending order.
-    pub fn condensed(size: usize, bodies: &[usize], body: usize) -> Self {
+    ///
+    /// # Errors
+    /// Kernels are not compiled for two bodies as large.
+    pub fn condensed(size: usize, bodies: &[usize], body: usize) -> Result<Self, OutOfReach> {
         let unknowns: Vec<usize> = bodies.iter().flat_map(|&first| first..first + body).collect();
         let mut place = vec![None; size];
         unknowns.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = Some(k));
         let mut kept = Band::diagonal(unknowns.len());
         // A segment couples the bodies at its ends.
         for pair in 1..bodies.len() {
-            kept.couple(&[body * (pair - 1), body * (pair + 1) - 1]);
+            let coupled = kept.couple(&[body * (pair - 1), body * (pair + 1) - 1]);
+            let (from, to) = (bodies[pair - 1], bodies[pair] + body - 1);
+            coupled.map_err(|_| OutOfReach { from, to })?;
         }
-        if let Some(last) = body.checked_sub(1) {
-            kept.couple(&[0, last]);
-        }
-        let mut band = Band::diagonal(size);
-        if body == BODY_IN_SPACE {
-            // The least that kernels are compiled for with so many unknowns a body.
-            band.couple(&[0, 10]);
-        }
-        Self { band, kept, place, unknowns, body, segments: segments(size, bodies, body) }
+        let band = if body == BODY_IN_SPACE {
+            Band::compiled_for(size, &COMPILED_IN_SPACE)
+        } else {
+            Band::compiled_for(size, &COMPILED_IN_PLANE)
+        };
+        Ok(Self { band, kept, place, unknowns, body, segments: segments(size, bodies, body) })
     }
 
     /// Makes room for entries between all pairs of the given unknowns.
     ///
-    /// # Panics
-    /// If two of them are more than sixteen apart: no stencil reaches further.
-    pub fn couple(&mut self, unknowns: &[usize]) {
+    /// # Errors
+    /// Two of them are further apart than kernels are compiled for, or a body lies between them.
+    pub fn couple(&mut self, unknowns: &[usize]) -> Result<(), OutOfReach> {
         if self.segments.is_empty() {
             return self.kept.couple(unknowns);
         }
         for &row in unknowns {
-            for &column in unknowns {
-                // A body before a segment meets it in the border.
-                if column <= row && self.place[column].is_none() {
-                    self.band.couple(&[column, row]);
-                }
+            for &column in unknowns.iter().filter(|&&column| column <= row) {
+                self.couple_pair(row, column)?;
             }
         }
+        Ok(())
+    }
+
+    fn couple_pair(&mut self, row: usize, column: usize) -> Result<(), OutOfReach> {
+        let out_of_reach = OutOfReach { from: column, to: row };
+        match (self.place[row], self.place[column]) {
+            (Some(row), Some(column)) => self.kept.couple(&[column, row]).map_err(|_| out_of_reach),
+            // A body before a segment meets it in the border, which has room for no other.
+            (None, Some(_)) => self.find(row, column).map(|_| ()).ok_or(out_of_reach),
+            (_, None) if self.ends_before(column, row) => Err(out_of_reach),
+            (_, None) => self.band.couple(&[column, row]),
+        }
+    }
+
+    /// Whether the segment of a soft unknown, with the body behind it, ends before another unknown.
+    fn ends_before(&self, soft: usize, unknown: usize) -> bool {
+        let segment = self.segments.iter().find(|segment| segment.rows.contains(&soft));
+        let end = |segment: &Segment| segment.behind.map_or(segment.rows.end, |b| b + self.body);
+        segment.is_some_and(|segment| end(segment) <= unknown)
     }
 
     /// Shape of the system of the kept unknowns.

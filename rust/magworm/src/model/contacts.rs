@@ -2,7 +2,7 @@
 
 use super::coordinates::{Anchor, Coordinates};
 use crate::lanes::chain::Chain;
-use crate::scene::{ContactPoint, Frame, Ground, Mesh, Scene};
+use crate::scene::{ContactPoint, Frame, Ground, Mesh, Problem, Scene};
 
 /// Shape of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,18 +78,30 @@ impl ContactParameters {
 }
 
 /// The pairs that a scene with ground has: its contact points that can move, with the ground.
+///
+/// # Errors
+/// A point moves with an unknown that is eliminated before contact is solved.
 pub(super) fn contact_pairs(
     points: &[ContactPoint],
     coordinates: &Coordinates,
     system: &Chain,
-) -> Vec<ContactPair> {
+) -> Result<Vec<ContactPair>, Problem> {
     let pair = |&point: &ContactPoint| {
         let (dof, rigid) = moves_with(point.frame, coordinates)?;
-        let row = system.place(dof).expect("what touches the ground is kept");
         let (surface, surface_frame) = (Surface::FlatGround, Frame::World);
-        Some(ContactPair { point, surface, surface_frame, dof, row, rigid })
+        let kept = system.place(dof).ok_or_else(|| eliminated(dof));
+        Some(kept.map(|row| ContactPair { point, surface, surface_frame, dof, row, rigid }))
     };
     points.iter().filter_map(pair).collect()
+}
+
+/// A body of which a point touches that contact does not reach. None that the rules let pass has one.
+fn eliminated(dof: usize) -> Problem {
+    Problem::Value {
+        field: "body".into(),
+        value: format!("a layout with a contact point on unknown {dof}"),
+        allowed: "contact points on magnets where soft unknowns are eliminated".into(),
+    }
 }
 
 /// First unknown that a frame moves with, and whether it turns with a magnet; none where it stands still.

@@ -270,6 +270,11 @@ impl Stencil {
         };
     }
 
+    /// The unknowns that are used.
+    pub fn unknowns(&self) -> &[usize] {
+        &self.dofs[..self.count]
+    }
+
     /// Looks the places of its entries up, once the shape of the matrix is known.
     pub fn locate(&mut self, system: &Chain) {
         let mut place = 0;

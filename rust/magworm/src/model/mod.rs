@@ -34,10 +34,11 @@ pub use waves::Wave;
 
 use crate::actuator::Actuator;
 use crate::lanes::Dimensions;
+use crate::lanes::banded::OutOfReach;
 use crate::lanes::chain::Chain;
 use crate::lanes::math::{radians, sin_cos};
 use crate::magnetic::UniformField;
-use crate::scene::{Parameter, Scene, SceneError};
+use crate::scene::{Parameter, Problem, Scene, SceneError};
 
 /// A compiled scene.
 #[derive(Clone, Debug)]
@@ -141,7 +142,8 @@ impl Model {
     /// Validates and compiles a scene.
     ///
     /// # Errors
-    /// A field that is out of its range, fields that contradict each other, or a step beyond the limit of the explicit scheme.
+    /// A field that is out of its range, fields that contradict each other, a body that no kernel is compiled for, or a step
+    /// beyond the limit of the explicit scheme.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let mesh = Mesh::new(scene);
@@ -154,8 +156,8 @@ impl Model {
         let mut stretch = stretch_springs(scene, &mesh, &coordinates);
         let mut bend = bending_springs(scene, &mesh, &coordinates);
         let touching = if scene.ground.is_some() { &mesh.contact_points[..] } else { &[] };
-        let system = system(&coordinates, &stretch, &bend, touching);
-        let contacts = contacts::contact_pairs(touching, &coordinates, &system);
+        let system = system(&coordinates, &stretch, &bend, touching).map_err(no_kernel)?;
+        let contacts = contacts::contact_pairs(touching, &coordinates, &system)?;
         let in_matrix = coordinates.ties.is_empty();
         stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&system));
         bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
@@ -335,13 +337,13 @@ fn system(
     stretch: &[Stretch],
     bend: &[Bend],
     points: &[ContactPoint],
-) -> Chain {
+) -> Result<Chain, OutOfReach> {
     let on_magnets =
         !points.is_empty() && points.iter().all(|point| matches!(point.frame, Frame::Body(_)));
     // A multiplier has no mass of its own: it cannot be eliminated before the magnet that it follows.
     let on_magnets = on_magnets && coordinates.ties.is_empty();
     let mut system = if on_magnets {
-        Chain::condensed(coordinates.count, &coordinates.bodies, coordinates.body_size())
+        Chain::condensed(coordinates.count, &coordinates.bodies, coordinates.body_size())?
     } else {
         Chain::whole(coordinates.count)
     };
@@ -349,17 +351,26 @@ fn system(
         let Anchor::Free { dof } = coordinates.anchors[tie.node] else { continue };
         let body = coordinates.bodies[tie.body];
         let (axis, rotation) = (coordinates.dimensions - 1, coordinates.body_size() - 1);
-        system.couple(&[tie.dof, tie.dof + axis, dof, dof + axis, body, body + rotation]);
+        system.couple(&[tie.dof, tie.dof + axis, dof, dof + axis, body, body + rotation])?;
     }
     // Explicit schemes have no stiffness in their matrix.
     if coordinates.ties.is_empty() {
-        stretch.iter().for_each(|s| system.couple(&s.stencil.dofs[..s.stencil.count]));
-        bend.iter().for_each(|b| system.couple(&b.stencil.dofs[..b.stencil.count]));
+        stretch.iter().try_for_each(|s| system.couple(s.stencil.unknowns()))?;
+        bend.iter().try_for_each(|b| system.couple(b.stencil.unknowns()))?;
     }
     for &body in &coordinates.bodies {
-        system.couple(&[body, body + coordinates.body_size() - 1]);
+        system.couple(&[body, body + coordinates.body_size() - 1])?;
     }
-    system
+    Ok(system)
+}
+
+/// A body whose equations no kernel solves. Every body that the rules let pass is solved by one.
+fn no_kernel(OutOfReach { from, to }: OutOfReach) -> Problem {
+    Problem::Value {
+        field: "body".into(),
+        value: format!("a layout that couples unknowns {from} and {to}"),
+        allowed: "springs between neighbours along the body".into(),
+    }
 }
 
 fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {
@@ -371,3 +382,6 @@ fn translations(coordinates: &Coordinates) -> Vec<(usize, usize)> {
         .flat_map(|dof| (0..coordinates.dimensions).map(move |axis| (dof + axis, axis)))
         .collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -33,12 +33,13 @@ fn random(chain: &Chain, reach: usize, numbers: &[f64]) -> (DMatrix<f64>, Vec<[f
 }
 
 fn solves(bodies: &[usize], body: usize, size: usize, reach: usize, numbers: &[f64]) -> f64 {
-    let mut chain = Chain::condensed(size, bodies, body);
+    let mut chain = Chain::condensed(size, bodies, body).expect("bodies of a worm");
     let mut free = 0;
     for &first in bodies.iter().chain([&size]) {
         // A segment with the body behind it.
         for row in free..(first + body).min(size) {
-            chain.couple(&[row.saturating_sub(reach).max(free), row]);
+            let coupled = chain.couple(&[row.saturating_sub(reach).max(free), row]);
+            coupled.expect("neighbours in reach");
         }
         free = first + body;
     }
@@ -62,8 +63,8 @@ fn solves(bodies: &[usize], body: usize, size: usize, reach: usize, numbers: &[f
 #[test]
 fn a_matrix_that_was_eliminated_is_zeros_once_it_is_cleared() {
     for (size, bodies, body, reach) in [(33, [2, 11, 20], 3, 5), (68, [4, 23, 42], 6, 10)] {
-        let mut chain = Chain::condensed(size, &bodies, body);
-        chain.couple(&[0, 1]);
+        let mut chain = Chain::condensed(size, &bodies, body).expect("bodies of a worm");
+        assert_eq!(chain.couple(&[0, 1]), Ok(()));
         let numbers: Vec<f64> = (0..97).map(|k| (f64::from(k) * 0.7).sin()).collect();
         let (_, mut matrix) = random(&chain, reach, &numbers);
         let mut rhs = vec![[1.0]; size];
@@ -73,6 +74,23 @@ fn a_matrix_that_was_eliminated_is_zeros_once_it_is_cleared() {
         chain.clear(Scalar, &mut matrix);
         assert!(matrix.iter().all(|row| row[0] == 0.0));
     }
+}
+
+#[test]
+fn unknowns_beyond_the_compiled_kernels_are_told_and_change_nothing() {
+    // Soft unknowns 0 to 3, 7 to 21 and 25 to 32 beside bodies at 4 and 22 in the plane.
+    let mut chain = Chain::condensed(33, &[4, 22], 3).expect("bodies of a worm");
+    assert_eq!(chain.couple(&[5, 10, 14]), Ok(()), "a body and what lies behind it");
+    let before = chain.clone();
+    for (unknowns, from, to, what) in [
+        (&[8, 17][..], 8, 17, "more than eight apart in a segment"),
+        (&[3, 7], 3, 7, "on both sides of a body"),
+        (&[4, 25], 4, 25, "a body and a segment that does not begin at it"),
+    ] {
+        assert_eq!(chain.couple(unknowns), Err(OutOfReach { from, to }), "{what}");
+        assert_eq!(chain, before, "{what}");
+    }
+    assert_eq!(Chain::condensed(100, &[0, 20], 9), Err(OutOfReach { from: 0, to: 28 }));
 }
 
 proptest! {
