@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Trajectories
 from magworm_gym.arguments import numbers, shown
+from magworm_gym.episodes import Episodes
 from magworm_gym.outcome import judged
 from magworm_gym.tasks import Task
 
@@ -59,16 +60,12 @@ class Origin:
     Attributes:
         batch: Their simulation.
         task: What is asked of them.
-        episodes: Numbers of their episodes (N,), -1 before the first reset.
-        ended: Whether the episode has ended (N,).
-        elapsed_steps: Control steps of the episode (N,).
+        episodes: What their episodes are at.
     """
 
     batch: Batch
     task: Task
-    episodes: NDArray[np.int64]
-    ended: Flags
-    elapsed_steps: NDArray[np.int64]
+    episodes: Episodes
 
     def environments(self, start: int | Sequence[int] | NDArray[Any] | None, plans: int) -> NDArray[np.int64]:
         """The environment that each plan starts from (K,).
@@ -92,7 +89,7 @@ class Origin:
             raise ValueError(f"start is {shown(start)}; it must be one index, or one for each plan ({plans})")
         if ((chosen < 0) | (chosen >= count)).any():
             raise ValueError(f"start is {shown(start)}; allowed: indices from 0 to {count - 1}")
-        if (self.episodes[chosen] < 0).any():
+        if (self.episodes.numbers[chosen] < 0).any():
             raise ResetNeeded("an environment to start from was never reset: call reset() before rollout()")
         return np.broadcast_to(chosen, plans).astype(np.int64)
 
@@ -143,8 +140,8 @@ def roll_out(
     batch = origin.batch.copies(environments.tolist())
     task = origin.task.copies(environments)
     seen = batch.rollout(values, observations=observations, magnet_poses=task.judges_magnets)
-    going = ~origin.ended[environments]
-    left = max_episode_steps - origin.elapsed_steps[environments]
+    going = ~origin.episodes.ended[environments]
+    left = max_episode_steps - origin.episodes.elapsed_steps[environments]
     rewards = np.zeros(shape[:2])
     terminated, truncated = np.zeros((2, *shape[:2]), np.bool_)
     appended = []

@@ -120,7 +120,7 @@ def _numbers(name: str, raw: NDArray[np.uint8], like: Array, limits: Limits) -> 
 def _of(name: str, wrong: NDArray[np.bool_]) -> str:
     """Names the first number of an array (N, …) that is wrong."""
     environment = int(np.argwhere(wrong)[0][0]) if wrong.ndim else 0
-    return f"{name.lstrip('_')} of environment {environment} in the state"
+    return f"{name} of environment {environment} in the state"
 
 
 def _checksum(body: bytes) -> bytes:

@@ -2,42 +2,36 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any
 
 import numpy as np
 from gymnasium import logger
-from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from magworm_gym import snapshot
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.arguments import SEED_LIMIT, action_rows, choice, indices, positive, seeds_of
+from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
 from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.drawing import Drawing, Frame
-from magworm_gym.draws import generator_of, next_episodes, uniform
+from magworm_gym.draws import next_episodes, uniform
+from magworm_gym.episodes import Episodes
 from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import judged, step_infos
-from magworm_gym.reset_options import equipped, furthest_start, read_options, start_limits
+from magworm_gym.reset_options import equipped, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import load_scene
-from magworm_gym.snapshot import COUNT, FINITE, Limits
 from magworm_gym.spaces import AnyPart, box, layout
+from magworm_gym.state import State
 from magworm_gym.tasks import Task, task_named
 
 Observations = NDArray[np.float32]
 
 RENDER_MODES = ("human", "rgb_array")
-COUNTED = ("_seeds", "_episodes", "_elapsed_steps", "_ended", "_starts", "_goals")
-"""Attributes that change in time, beside the simulator's state and the task's."""
-DRAWN = (*COUNTED, "_np_random", "_np_random_seed")
+DRAWN = ("_episodes", "_np_random", "_np_random_seed")
 """Attributes that a reset changes before the simulator is asked."""
-TASK = "task_"
-"""Before the names of a task's state."""
 
 
 class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
@@ -138,14 +132,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._action_shape = (self.num_envs, sum(part.size for part in self._batch.action_specification))
 
-        self._seeds = np.zeros(self.num_envs, np.int64)
-        self._episodes = np.full(self.num_envs, -1, np.int64)  # -1: never reset
-        self._elapsed_steps = np.zeros(self.num_envs, np.int64)
-        self._ended = np.zeros(self.num_envs, np.bool_)
-        columns = len(start_limits(scene.dimensions))
-        self._starts = np.full((self.num_envs, columns), np.nan)  # NaN: the scene's
-        goal = self._task.goal_option
-        self._goals = np.full((self.num_envs, 0 if goal is None else goal.size), np.nan)  # NaN: drawn
+        columns, goal = len(start_limits(scene.dimensions)), self._task.goal_option
+        self._episodes = Episodes.before_the_first(self.num_envs, columns, 0 if goal is None else goal.size)
 
     @property
     def batch(self) -> Batch:
@@ -210,12 +198,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         with Bookkeeping() as books, put_back(self, DRAWN), equipped(self._batch, request):
             if isinstance(seed, (int, np.integer)):
                 super().reset(seed=int(seed))
-            self._starts[request.mask] = np.nan if request.start is None else request.start[request.mask]
-            self._goals[request.mask] = np.nan if request.goal is None else request.goal[request.mask]
-            episodes = next_episodes(self._seeds, self._episodes, seeds, request.mask, self.np_random)
-            self._start_episodes(request.mask, episodes, books)
+            mask, of = request.mask, self._episodes
+            of.starts[mask] = np.nan if request.start is None else request.start[mask]
+            of.goals[mask] = np.nan if request.goal is None else request.goal[mask]
+            numbers = next_episodes(of.seeds, of.numbers, seeds, mask, self.np_random)
+            self._start_episodes(mask, numbers, books)
             infos: Infos = {}
-            self._add_reset_infos(infos, request.mask)
+            self._add_reset_infos(infos, mask)
         self._show()
         return self._observe(), infos
 
@@ -235,7 +224,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ResetNeeded: An environment was never reset, or with ``DISABLED`` not since its episode ended.
         """
         values = action_rows(actions, self._action_shape)
-        resetting = self._due_to_reset()
+        resetting = self._episodes.due_to_reset(self._autoreset)
         with Bookkeeping() as books:
             simulated = self._advance(values, resetting)
             books.begin()
@@ -264,7 +253,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ValueError: Actions or starts of a wrong shape or value.
             ResetNeeded: An environment to start from was never reset.
         """
-        origin = Origin(self._batch, self._task, self._episodes, self._ended, self._elapsed_steps)
+        origin = Origin(self._batch, self._task, self._episodes)
         return roll_out(origin, self._max_episode_steps, actions, start, observations)
 
     def render(self) -> tuple[Frame, ...] | None:
@@ -284,7 +273,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def get_state(self) -> bytes:
         """Everything that changes in time, for :meth:`set_state`: the continuation is equal bit for bit."""
-        return snapshot.pack({**self._counted(), **self._simulated()})
+        return self._state().pack()
 
     def set_state(self, state: bytes) -> None:
         """Goes on from a state of an environment with the same scene, N and autoreset mode.
@@ -292,23 +281,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         Raises:
             ValueError: The bytes are no such state; nothing is changed then.
         """
-        fields = snapshot.unpack(state, {**self._counted(), **self._simulated()}, self._limits())
-        autoreset = fields["autoreset"].tobytes().decode(errors="replace")
-        if autoreset != self._autoreset.value:
-            raise ValueError(
-                f"the state is of autoreset mode {autoreset!r}; "
-                f"this environment has {self._autoreset.value!r}"
-            )
-        random = generator_of(fields["random"].tobytes())
-        with Bookkeeping() as books:
-            self._batch.set_state(fields["batch"].tobytes())
-            books.begin()  # nothing fails from here on
-            self.np_random.bit_generator.state = random.bit_generator.state
-            for name in COUNTED:
-                setattr(self, name, fields[name])
-            self._task.state = {name: fields[f"{TASK}{name}"] for name in self._task.state}
-            if self._drawing is not None:
-                self._drawing.forget(np.ones(self.num_envs, np.bool_))
+        self._state().restore(state)
+        if self._drawing is not None:
+            self._drawing.forget(np.ones(self.num_envs, np.bool_))
 
     def close_extras(self, **_: Any) -> None:
         """Closes the window."""
@@ -321,57 +296,23 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         _ = self.np_random  # made on first use: from now on both have the same
         return {**self.__dict__, "_drawing": None}
 
-    def _counted(self) -> dict[str, NDArray[Any]]:
-        """What changes in time on this side of the simulator."""
-        task = {f"{TASK}{name}": values for name, values in self._task.state.items()}
-        return {**{name: getattr(self, name) for name in COUNTED}, **task}
-
-    def _simulated(self) -> dict[str, NDArray[Any]]:
-        random = json.dumps(self.np_random.bit_generator.state)
-        return {
-            "batch": np.frombuffer(self._batch.get_state(), np.uint8),
-            "random": np.frombuffer(random.encode(), np.uint8),
-            "autoreset": np.frombuffer(self._autoreset.value.encode(), np.uint8),
-        }
-
-    def _limits(self) -> dict[str, Limits]:
-        """What numbers of a state may be."""
-        option, furthest = self._task.goal_option, furthest_start(self.scene.dimensions)
-        return {
-            "_seeds": Limits(0, SEED_LIMIT - 1),
-            "_episodes": Limits(-1, COUNT.high),
-            "_elapsed_steps": COUNT,
-            "_starts": Limits(-furthest, furthest, missing=True),
-            "_goals": Limits(-option.limit, option.limit, missing=True) if option else FINITE,
-        }
+    def _state(self) -> State:
+        return State(self._batch, self._episodes, self._task, self.np_random, self._autoreset)
 
     def _start_episodes(
-        self, mask: Flags, episodes: NDArray[np.int64], books: Bookkeeping | None = None
+        self, mask: Flags, numbers: NDArray[np.int64], books: Bookkeeping | None = None
     ) -> None:
         """Resets the simulation of the environments of mask, to their episodes (N,)."""
-        episodes = np.where(mask, episodes, self._episodes)
-        numbers = np.maximum(episodes, 0)
-        self._batch.reset(mask, self._seeds, numbers, start=self._starts)
+        of = self._episodes
+        numbers = np.where(mask, numbers, of.numbers)
+        drawn = np.maximum(numbers, 0)
+        self._batch.reset(mask, of.seeds, drawn, start=of.starts)
         if books is not None:
             books.begin()
-        self._episodes = episodes
-        self._elapsed_steps[mask] = 0
-        self._ended[mask] = False
-        self._task.begin(self._batch, mask, self._goals, uniform(self._seeds, numbers, self._task.draws))
+        of.begin(mask, numbers)
+        self._task.begin(self._batch, mask, of.goals, uniform(of.seeds, drawn, self._task.draws))
         if self._drawing is not None:
             self._drawing.forget(mask)
-
-    def _due_to_reset(self) -> Flags:
-        """The environments whose next step is a reset."""
-        never = np.flatnonzero(self._episodes < 0)
-        if never.size:
-            raise ResetNeeded(f"environment {never[0]} was never reset: call reset() before step()")
-        if self._autoreset is AutoresetMode.DISABLED and self._ended.any():
-            raise ResetNeeded(
-                f"the episode of environment {np.flatnonzero(self._ended)[0]} has ended and autoreset is "
-                "disabled: call reset(options={'reset_mask': terminated | truncated}) before step()"
-            )
-        return self._ended.copy()
 
     def _advance(
         self, actions: NDArray[np.float64], resetting: Flags
@@ -390,10 +331,11 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     ) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
         """What a step of the simulator, whose arrays are given, is to the task and the episodes."""
         stepping = ~resetting
-        self._elapsed_steps += stepping
+        of = self._episodes
+        of.elapsed_steps += stepping
         verdict = self._task.judge(self._batch, progress_m, stepping)
         observations = self._observe(simulated)
-        outcome = judged(verdict, status, stepping, self._elapsed_steps >= self._max_episode_steps)
+        outcome = judged(verdict, status, stepping, of.elapsed_steps >= self._max_episode_steps)
         ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
         same_step = self._autoreset is AutoresetMode.SAME_STEP
         starting = ended if same_step else resetting
@@ -402,10 +344,10 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             if same_step:
                 add(infos, "final_obs", rows(observations), starting)
                 infos |= {"final_info": step_infos(outcome, seen, starting), "_final_info": starting.copy()}
-            self._start_episodes(starting, self._episodes + 1)
+            self._start_episodes(starting, of.numbers + 1)
             observations = self._observe()
             self._add_reset_infos(infos, starting)
-        self._ended = np.zeros_like(ended) if same_step else ended
+        of.ended = np.zeros_like(ended) if same_step else ended
         return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
 
     def _observe(self, simulated: Observations | None = None) -> Observations:
@@ -417,8 +359,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def _add_reset_infos(self, infos: Infos, mask: Flags) -> None:
         add(infos, "time_s", self._batch.time_s(), mask)
-        add(infos, "seed", self._seeds, mask)
-        add(infos, "episode_number", self._episodes, mask)
+        add(infos, "seed", self._episodes.seeds, mask)
+        add(infos, "episode_number", self._episodes.numbers, mask)
         for key, told in self._task.reset_infos().items():
             add(infos, key, told, mask)
 
