@@ -33,9 +33,7 @@ def draw_robot(axes: Any, scene: Scene, recording: Recording, sample: int, share
     sizes, offsets, directions = (
         np.asarray(geometry[name])[:, :2] for name in ("magnet_size_m", "magnet_offset_m", "magnet_direction")
     )
-    magnets = zip(
-        recording.magnet_poses[sample], sizes, offsets, directions, recording.present, strict=True
-    )
+    magnets = zip(recording.magnet_poses[sample], sizes, offsets, directions, recording.present, strict=True)
     for (x, y, angle), size, offset, direction, there in magnets:
         across, up = offset @ turned(angle)
         draw_magnet(axes, (x + across, y + up, angle), size, direction if there else None, share)
