@@ -354,6 +354,19 @@ def test_a_blind_search_does_not_depend_on_known_robots_nor_on_the_scene():
     assert seeing.candidates == one.candidates + 2
 
 
+def test_the_best_of_an_evolution_is_never_a_loss_that_is_less_than_exact():
+    exact = {}
+
+    def losses(units, bounds):
+        whole = 10.0 * np.square(units - 0.7).sum(axis=1)
+        exact.update(zip(map(tuple, units), whole, strict=True))
+        return np.where(whole > bounds, np.minimum(whole, np.nextafter(bounds, np.inf)), whole)
+
+    settings = SearchSettings(restarts=3, population=6, generations=12, scatter=40)
+    for each in search(losses, lambda loss: loss, np.empty((0, 4)), settings):
+        assert exact[tuple(each.best)] == each.loss <= each.parents
+
+
 def test_profiles_hold_the_least_loss_of_each_slice():
     units = np.array([[0.05, 0.95], [0.07, 1.0], [0.55, 0.0]])
     least = profiles(units, np.array([3.0, 2.0, 1.0]))

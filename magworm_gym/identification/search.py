@@ -55,7 +55,7 @@ class Evolution:
         loss: The loss there [1].
         idle: Generations since the last progress.
         generations: Generations so far.
-        parents: Greatest loss of the parents of the last generation, its better half [1].
+        parents: Greatest loss of the parents of the last generation, its better half; at least ``loss`` [1].
         ended: Why it ended, in words; empty while it goes on.
     """
 
@@ -109,13 +109,15 @@ def search(
     strategy = _strategy_maker(settings)
     generator = np.random.default_rng([settings.seed, 1])
     scatter = np.vstack([starts, latin_hypercube(settings.scatter, starts.shape[1], generator)])
-    scattered = _scattered(losses, limit, scatter, RUNNERS_UP * settings.restarts, progress)
+    exact = min(RUNNERS_UP * settings.restarts, len(scatter))
+    scattered = _scattered(losses, limit, scatter, exact, progress)
+    known = float(np.sort(scattered)[exact - 1])
     if scattered.min() >= BROKEN:
         raise NothingRunsError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
     evolutions = [
-        Evolution(strategy(origin, int(seed)), origin)
-        for origin, seed in zip(_origins(scatter, scattered, settings.restarts), seeds, strict=True)
+        _evolution(strategy(scatter[at], int(seed)), scatter[at], float(scattered[at]), known)
+        for at, seed in zip(_origins(scatter, scattered, settings.restarts), seeds, strict=True)
     ]
     best = float(scattered.min())
     for generation in range(settings.generations):
@@ -135,6 +137,20 @@ def search(
     for evolution in evolutions:
         evolution.ended = evolution.ended or "out of generations"
     return sorted(evolutions, key=lambda evolution: evolution.loss)
+
+
+def _evolution(strategy: Any, origin: Floats, loss: float, known: float) -> Evolution:
+    """One that begins at a scattered point; its first parents have to be as good as the best of these.
+
+    Args:
+        strategy: The ``cmaes.CMA``.
+        origin: The point (P,).
+        loss: Its loss, which may be less than exact beyond ``known`` [1].
+        known: Loss up to which those of scattered points are exact [1].
+    """
+    if loss > known:
+        return Evolution(strategy, origin)
+    return Evolution(strategy, origin, loss, parents=known)
 
 
 def _scattered(
@@ -166,14 +182,15 @@ def latin_hypercube(count: int, dimension: int, generator: np.random.Generator) 
     return np.asarray((slices + generator.random((count, dimension))) / count)
 
 
-def _origins(scatter: Floats, losses: Floats, count: int) -> list[Floats]:
-    """The best scattered points, apart from each other where that is possible."""
-    order = list(scatter[np.argsort(losses, kind="stable")])
-    chosen: list[Floats] = []
+def _origins(scatter: Floats, losses: Floats, count: int) -> list[int]:
+    """Places of the best scattered points, apart from each other where that is possible."""
+    best_first = np.argsort(losses, kind="stable").tolist()
+    order: list[int] = []
+    chosen: list[int] = []
     while len(chosen) < count:
-        if not order:
-            order = list(scatter[np.argsort(losses, kind="stable")])
-        apart = (at for at, u in enumerate(order) if all(np.linalg.norm(u - o) >= APART for o in chosen))
+        order = order or best_first.copy()
+        away = (np.linalg.norm(scatter[chosen] - scatter[at], axis=1).min(initial=np.inf) for at in order)
+        apart = (place for place, distance in enumerate(away) if distance >= APART)
         chosen.append(order.pop(next(apart, 0)))
     return chosen
 
