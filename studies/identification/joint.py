@@ -203,15 +203,10 @@ def claims_section(blind: list[Search]) -> list[str]:
         model = "–" if target["model"] is None else f"{target['model']:.4g}"
         count = sum(run.met([target["name"]]) for run in blind)
         rows.append(
-            f"| {target['name']} | {yes(target['fitted'])} | {target['target']} | {model} | "
-            f"{yes(target['met'])} | {count} of {len(blind)} |"
+            f"| {target['name']} | {'yes' if target['fitted'] else 'no'} | {target['target']} | {model} | "
+            f"{'yes' if target['met'] else '**no**'} | {count} of {len(blind)} |"
         )
     return rows
-
-
-def yes(true: bool) -> str:
-    """A word for a table."""
-    return "yes" if true else "**no**"
 
 
 def crossed_section(crossed: list[Search]) -> list[str]:
