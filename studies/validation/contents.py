@@ -42,6 +42,9 @@ SECTIONS = (
             "relaxing_oscillator": "closed form",
             "dynamic_cantilever": "another discretisation",
             "compass_needle": "closed form",
+            "free_suspension": "closed form",
+            "suspension_at_rest": "the pair's wrench",
+            "energy_of_a_suspension": "conservation law",
         },
     ),
     Section(

@@ -30,11 +30,12 @@ pub fn command<R: Row>(model: &Model, block: &mut Block<R>, lane: usize, mut act
 /// Moves the actuators to where they are at the end of a step.
 #[inline(always)]
 pub fn advance<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
-    let Block { stage, target, action, step_count, factors, running, .. } = block;
+    let Block { stage, target, action, step_count, factors, running, drive_load, .. } = block;
     let clock = Clock {
         steps: step_count,
         step_s: model.step_s,
         speed_factor: &factors[Parameter::DriveSpeed as usize],
+        load_n: drive_load.first().map_or(isa.splat(0.0), |row| isa.load(row)),
         running: isa.load(&running[0]).eq(isa.splat(1.0)),
     };
     let rows = ActuatorRows { state: stage, target, action };

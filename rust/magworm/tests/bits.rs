@@ -164,6 +164,18 @@ fn scalar_and_wide_lanes_give_equal_bits_with_lagrange_multipliers() {
 }
 
 #[test]
+fn scalar_and_wide_lanes_give_equal_bits_for_rubber_that_relaxes() {
+    lanes_agree("relaxing rubber", 300, 3);
+    lanes_agree("relaxing rubber in space", 150, 3);
+}
+
+#[test]
+fn scalar_and_wide_lanes_give_equal_bits_for_a_drive_that_gives_way() {
+    lanes_agree("suspended drive", 300, 3);
+    lanes_agree("suspended drive in space", 150, 3);
+}
+
+#[test]
 fn scalar_and_wide_lanes_give_equal_bits_in_a_uniform_field() {
     lanes_agree("uniform field", 300, 3);
     lanes_agree("uniform field in space", 150, 3);

@@ -9,6 +9,7 @@ mod layout;
 mod path;
 mod rows;
 mod stage;
+mod suspension;
 
 pub use layout::Layout;
 pub use rows::{ActuatorRows, Clock, Sizes, each, states};
@@ -29,7 +30,7 @@ pub enum Actuator {
 impl Actuator {
     /// The actuators of a scene.
     pub fn of(scene: &Scene) -> Vec<Self> {
-        let stage = scene.drive.as_ref().map(|drive| Stage::new(drive, scene.dimensions));
+        let stage = scene.drive.as_ref().map(|drive| Stage::new(drive, scene));
         stage.map(Self::Stage).into_iter().collect()
     }
 
@@ -37,6 +38,13 @@ impl Actuator {
     pub fn stage(&self) -> Option<&Stage> {
         match self {
             Self::Stage(stage) => Some(stage),
+        }
+    }
+
+    /// Whether its magnets give way to a vertical force.
+    pub fn is_suspended(&self) -> bool {
+        match self {
+            Self::Stage(stage) => stage.is_suspended(),
         }
     }
 

@@ -48,6 +48,8 @@ pub struct Clock<'a, I: Isa> {
     pub step_s: f64,
     /// Factor of the speed of a motion that the scene prescribes.
     pub speed_factor: &'a I::Row,
+    /// Vertical force of the body's magnets on its own in this step [N].
+    pub load_n: I::F,
     /// Lanes that run.
     pub running: I::M,
 }

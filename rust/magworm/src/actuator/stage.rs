@@ -6,16 +6,20 @@
 use super::layout::Layout;
 use super::path::{Limits, Path, YAW};
 use super::rows::{ActuatorRows, Clock, Sizes};
+use super::suspension::Suspension;
 use crate::draws::Draws;
 use crate::lanes::math::sin_cos;
 use crate::lanes::{Dim, Dimensions, Isa, Number, Real, Row};
-use crate::scene::{Arrangement, Drive};
+use crate::scene::{Arrangement, Drive, Scene};
 use crate::specification::{Observation, Outlook, Scales, Specification};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
-/// A stage. Its state is the place of its axes and their velocities: x, y, in space also z [m] and yaw [rad]. Its
-/// targets are those of the axes, then their greatest speed [m/s].
+/// The axis of height.
+const HEIGHT: usize = 1;
+
+/// A stage. Its state is the place of its axes and their velocities: x, y, in space also z [m] and yaw [rad]; then what its
+/// suspension gives way by and how fast, where it has one. Its targets are those of the axes, then their greatest speed [m/s].
 #[derive(Clone, Debug)]
 pub struct Stage {
     sizes: Dimensions,
@@ -26,6 +30,8 @@ pub struct Stage {
     pub layout: Layout,
     /// Its motion.
     pub path: Path,
+    /// What carries the magnets, where they give way.
+    suspension: Option<Suspension>,
 }
 
 /// A component of an action, in [−1, 1].
@@ -83,16 +89,18 @@ impl Component {
 
 impl Stage {
     /// The stage of a scene, beneath its first robot.
-    pub fn new(drive: &Drive, dimensions: usize) -> Self {
+    pub fn new(drive: &Drive, scene: &Scene) -> Self {
         let (layout, path) = (Layout::new(&drive.arrangement), Path::new(drive));
-        Self { sizes: Dimensions::new(dimensions), robot: 0, layout, path }
+        let suspension = drive.suspension.as_ref();
+        let suspension = suspension.map(|one| Suspension::new(one, scene.solver.step_s));
+        Self { sizes: Dimensions::new(scene.dimensions), robot: 0, layout, path, suspension }
     }
 
     /// One that stands still, with a single magnet.
     pub fn standing(dimensions: usize) -> Self {
         let path = Path::Constant { start: [0.0; 4], speed_m_s: 0.0 };
         let layout = Layout::new(&Arrangement::Single);
-        Self { sizes: Dimensions::new(dimensions), robot: 0, layout, path }
+        Self { sizes: Dimensions::new(dimensions), robot: 0, layout, path, suspension: None }
     }
 
     /// Its limits, where it follows commands.
@@ -112,11 +120,34 @@ impl Stage {
         Component::of(self.sizes, self.turns())
     }
 
-    /// x, y, z [m] and yaw [rad] from its rows.
-    fn place_in(&self, row: impl Fn(usize) -> f64) -> [f64; 4] {
-        let mut place = [0.0; 4];
-        (0..self.sizes.stage).for_each(|axis| place[axis] = row(axis));
-        place
+    /// Whether its magnets give way.
+    pub fn is_suspended(&self) -> bool {
+        self.suspension.is_some()
+    }
+
+    /// x, y, z [m] and yaw [rad] of what carries its magnets; an axis that it lacks is at 0.
+    #[inline(always)]
+    pub fn place_in<F: Real>(&self, zero: F, row: impl Fn(usize) -> F) -> [F; 4] {
+        self.axes_in(0, zero, row)
+    }
+
+    /// Their velocities [m/s, rad/s].
+    #[inline(always)]
+    fn velocity_in<F: Real>(&self, zero: F, row: impl Fn(usize) -> F) -> [F; 4] {
+        self.axes_in(1, zero, row)
+    }
+
+    /// Places (0) or velocities (1) of the axes, each with its part of what the suspension gives way by.
+    #[inline(always)]
+    fn axes_in<F: Real>(&self, which: usize, zero: F, row: impl Fn(usize) -> F) -> [F; 4] {
+        let (mut axes, count) = ([zero; 4], self.sizes.stage);
+        for axis in 0..count {
+            axes[axis] = row(which * count + axis);
+        }
+        if self.is_suspended() {
+            axes[HEIGHT] = axes[HEIGHT] + row(2 * count + which);
+        }
+        axes
     }
 }
 
@@ -124,7 +155,7 @@ impl Stage {
 impl Stage {
     /// See [`super::Actuator::magnet_place`].
     pub fn magnet_place(&self, magnet: usize, state: &[f64], robot_x: f64) -> Vec<f64> {
-        let [x, y, z, yaw] = self.place_in(|row| state[row]);
+        let [x, y, z, yaw] = self.place_in(0.0, |row| state[row]);
         let (sin, cos) = sin_cos(yaw);
         let [x, z] = self.layout.place(magnet, x, z, robot_x, sin, cos);
         [x, y, z, yaw][..self.sizes.stage].to_vec()
@@ -132,7 +163,7 @@ impl Stage {
 
     /// See [`super::Actuator::velocity`].
     pub fn velocity(&self, state: &[f64]) -> Vec<f64> {
-        state[self.sizes.stage..].to_vec()
+        self.velocity_in(0.0, |row| state[row])[..self.sizes.stage].to_vec()
     }
 }
 
@@ -140,7 +171,9 @@ impl Stage {
 impl Stage {
     /// How many rows it needs.
     pub fn sizes(&self) -> Sizes {
-        Self::sizes_in(self.sizes, self.turns())
+        let sizes = Self::sizes_in(self.sizes, self.turns());
+        let rows = if self.is_suspended() { Suspension::ROWS } else { 0 };
+        Sizes { state: sizes.state + rows, ..sizes }
     }
 
     /// How many rows one needs in the plane or in space that turns by command, or does not. Yaw is seen as cosine and sine.
@@ -184,22 +217,24 @@ impl Stage {
         out: &mut Observation<'_>,
     ) {
         let at = |row: usize| state[row][lane].f64();
+        let ([x, y, z, yaw], [vx, vy, vz, rate]) =
+            (self.place_in(0.0, at), self.velocity_in(0.0, at));
         let centre = from.robot[0];
         if self.sizes.axes == 2 {
             let (per_length, per_speed) = (1.0 / scales.length_m, 1.0 / scales.speed_m_s);
-            let x = self.layout.position(0, at(0), centre);
-            out.numbers(&[(x - centre) * per_length, at(1) * per_length]);
-            return out.numbers(&[at(2) * per_speed, at(3) * per_speed]);
+            let x = self.layout.position(0, x, centre);
+            out.numbers(&[(x - centre) * per_length, y * per_length]);
+            return out.numbers(&[vx * per_speed, vy * per_speed]);
         }
         let x = match self.layout.circumference_m {
-            Some(_) => self.layout.position(0, at(0), centre),
-            None => at(0),
+            Some(_) => self.layout.position(0, x, centre),
+            None => x,
         };
-        out.vector(from.place(Vector3::new(x, at(1), at(2))) / scales.length_m);
-        let (sin, cos) = sin_cos(at(3) - from.robot[2]);
+        out.vector(from.place(Vector3::new(x, y, z)) / scales.length_m);
+        let (sin, cos) = sin_cos(yaw - from.robot[2]);
         out.numbers(&[cos, sin]);
-        out.vector(from.vector(Vector3::new(at(4), at(5), at(6))) / scales.speed_m_s);
-        out.numbers(&[at(7) / scales.rate_rad_s()]);
+        out.vector(from.vector(Vector3::new(vx, vy, vz)) / scales.speed_m_s);
+        out.numbers(&[rate / scales.rate_rad_s()]);
     }
 }
 
@@ -220,6 +255,7 @@ impl Stage {
             rows.state[axes + axis][lane] = Number::of(0.0);
             rows.target[axis][lane] = Number::of(place[axis]);
         }
+        rows.state[2 * axes..].iter_mut().for_each(|row| row[lane] = Number::of(0.0));
         rows.target[axes][lane] = Number::of(0.0);
         rows.action.iter_mut().for_each(|row| row[lane] = Number::of(0.0));
     }
@@ -265,7 +301,7 @@ impl Stage {
         let height =
             limits.lowest_m + unit(Component::Height) * (limits.highest_m - limits.lowest_m);
         let yaw = robot[2] + of(Component::Yaw) * limits.yaw_reach_rad;
-        let is_at = self.place_in(|row| rows.state[row][lane].f64());
+        let is_at = self.place_in(0.0, |row| rows.state[row][lane].f64());
         let turns = ((is_at[YAW] - yaw) / TAU).round();
         let (place, speed) = ([x, height, z, yaw + turns * TAU], unit(Component::Speed));
         for axis in 0..self.sizes.stage {
@@ -290,6 +326,14 @@ impl Stage {
             for (row, value) in [(axis, place[axis]), (D::STAGE + axis, speed[axis])] {
                 let row = &mut rows.state[row];
                 isa.store(I::F::select(clock.running, value, isa.load(row)), row);
+            }
+        }
+        if let Some(suspension) = &self.suspension {
+            let rows = &mut rows.state[2 * D::STAGE..];
+            let before = [isa.load(&rows[0]), isa.load(&rows[1])];
+            let after = suspension.advance(before, clock.load_n);
+            for k in 0..Suspension::ROWS {
+                isa.store(I::F::select(clock.running, after[k], before[k]), &mut rows[k]);
             }
         }
     }

@@ -38,6 +38,7 @@ pub fn magnets<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         None => true,
     };
     let sources = Sources::of::<D>(isa, model, block);
+    block.drive_load.iter_mut().for_each(|row| isa.store(isa.splat(0.0), row));
     for (body, RigidBody { dof, magnets, .. }) in model.bodies.iter().enumerate() {
         let mut wrench = [isa.splat(0.0); WRENCH];
         if let (true, Some(magnetics), Some(sources)) = (computes, &program.magnetics, &sources) {
@@ -52,6 +53,9 @@ pub fn magnets<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         }
         if let Some(due) = due {
             hold::hold::<D, I>(isa, block, body, due, &mut wrench);
+        }
+        for row in block.drive_load.iter_mut() {
+            isa.store(isa.load(row) - wrench[1], row);
         }
         if program.uniform_field.is_some() {
             for magnet in magnets.clone() {
@@ -85,10 +89,7 @@ impl<'a, I: Isa> Sources<'a, I> {
         let mut actuators = states(&model.program.actuators, &block.stage);
         let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
         let (stage, state): (_, &[I::Row]) = actuators.find_map(stage)?;
-        // An axis that a stage lacks is at 0.
-        let mut axes = [isa.splat(0.0); 4];
-        (0..D::STAGE).for_each(|axis| axes[axis] = isa.load(&state[axis]));
-        let [x, y, z, yaw] = axes;
+        let [x, y, z, yaw] = stage.place_in(isa.splat(0.0), |row| isa.load(&state[row]));
         let robot = block.centre_x_of_lanes(isa, model, stage.robot);
         let (layout, stage) = (&stage.layout, Vector([x, y, z]));
         Some(Self { layout, robot, stage, yaw: sin_cos(yaw) })

@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
 use super::{Model, UniformTorque};
-use crate::scene::{Curvature, MagnetModel, Precision};
+use crate::scene::{Curvature, MagnetModel, Precision, Suspension};
 use std::fmt::Write;
 
 impl Model {
@@ -98,7 +98,17 @@ impl Model {
             1 => "a step".to_string(),
             n => format!("every {n} steps, held between"),
         };
-        format!("{pairs} wrenches {often}, {pair}")
+        format!("{pairs} wrenches {often}, {pair}{}", self.explain_suspension())
+    }
+
+    fn explain_suspension(&self) -> String {
+        let suspension = self.scene.drive.as_ref().and_then(|drive| drive.suspension.as_ref());
+        suspension.map_or_else(String::new, |one| {
+            let Suspension { mass_kg, stiffness_n_m, damping_n_s_m } = one;
+            let swing_hz = (stiffness_n_m / mass_kg).sqrt() / std::f64::consts::TAU;
+            let damping = 0.5 * damping_n_s_m / (stiffness_n_m * mass_kg).sqrt();
+            format!("; the stage gives way at {swing_hz:.3} Hz, damping ratio {damping:.3}")
+        })
     }
 
     fn explain_field(&self) -> String {

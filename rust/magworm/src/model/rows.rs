@@ -115,6 +115,8 @@ macro_rules! block_rows {
             Workspace {
                 /// 1 where the lane runs, 0 where it stands still, shape [1].
                 running: "1", |_| 1;
+                /// Vertical force of the body's magnets on those of a stage that gives way, shape [1]; else none.
+                drive_load: "N", |m| m.program.actuators.iter().filter(|one| one.is_suspended()).count();
                 /// Node positions, shape [nodes × D].
                 node: "m", |m| m.dimensions() * m.nodes();
                 /// Unit tangents, shape [elements × D].

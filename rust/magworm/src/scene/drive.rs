@@ -23,6 +23,23 @@ pub struct Drive {
     pub arrangement: Arrangement,
     /// How the arrangement moves.
     pub motion: Motion,
+    /// What carries the magnets on the stage where they give way up and down; none: they are where the stage is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub suspension: Option<Suspension>,
+}
+
+/// A spring and a damper that the drive magnets stand on, all together. The vertical force of the body's magnets moves them off the height
+/// of the stage, at which they rest under their weight alone. Nothing stops them, not the ground either.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Suspension {
+    /// Mass of what gives way: the magnets with their holder [kg].
+    pub mass_kg: f64,
+    /// Stiffness [N/m].
+    pub stiffness_n_m: f64,
+    /// Damping [N·s/m].
+    #[serde(default)]
+    pub damping_n_s_m: f64,
 }
 
 /// The point of a drive magnet whose height is given. The paper's −22 mm leaves it open.

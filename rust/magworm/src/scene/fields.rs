@@ -176,6 +176,15 @@ static DRIVE: Table = Table {
         optional("reference", Kind::Choice(&["centre", "top"])),
         optional("arrangement", Kind::Variants(ARRANGEMENT)),
         required("motion", Kind::Variants(MOTION)),
+        optional("suspension", Kind::Table(&SUSPENSION)),
+    ],
+};
+
+static SUSPENSION: Table = Table {
+    fields: &[
+        required("mass_kg", real("kg", 1e-3, 100.0)),
+        required("stiffness_n_m", real("N/m", 1.0, 1e7)),
+        optional("damping_n_s_m", real("N·s/m", 0.0, 1e4)),
     ],
 };
 

@@ -39,7 +39,7 @@ pub use body::{
 pub use contact_point::{ContactPoint, Frame};
 #[doc(hidden)] // for the project's own tests
 pub use direction::Direction;
-pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits};
+pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits, Suspension};
 pub use error::{Problem, SceneError};
 #[doc(hidden)] // for the project's own tests
 pub use mesh::{Element, Mesh, MeshMagnet, RigidElement};

@@ -4,6 +4,7 @@ use magworm::scene::*;
 use proptest::prelude::*;
 
 use crate::scene_strategy::dice::{Dice, dice};
+use crate::scene_strategy::drive::suspension;
 use crate::scene_strategy::{bends, relaxation, with_interval, within_the_limit};
 
 /// Rubber of the presets: volumes and densities below are shares of it [kg/m³].
@@ -12,7 +13,7 @@ const RUBBER_KG_M3: f64 = 1070.0;
 /// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
     let shape = dice(bends::NUMBERS);
-    (dice(16), dice(24), dice(32), dice(40), shape).prop_map(
+    (dice(16), dice(28), dice(32), dice(40), shape).prop_map(
         move |(mut body, mut world, mut rest, mut parts, mut shape)| {
             let (body, magnet) = robot_or_rod(&mut body, most_nodes);
             let solver = solver(&mut rest);
@@ -148,6 +149,7 @@ fn drive(dice: &mut Dice, motion: Motion) -> Drive {
         remanence_t: dice.between(0.0, 10.0),
         reference: Reference::Centre,
         arrangement: Arrangement::Single,
+        suspension: suspension(dice),
         motion,
     }
 }

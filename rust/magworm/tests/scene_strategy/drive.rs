@@ -15,8 +15,18 @@ pub fn drive(dice: &mut Dice, dimensions: usize) -> Drive {
         remanence_t: dice.between(0.0, 10.0),
         reference,
         arrangement: arrangement(dice, length_m),
+        suspension: suspension(dice),
         motion: motion(dice, above_m, dimensions),
     }
+}
+
+/// Magnets of every other drive give way.
+pub fn suspension(dice: &mut Dice) -> Option<Suspension> {
+    dice.coin().then(|| Suspension {
+        mass_kg: dice.decades(1e-3, 100.0),
+        stiffness_n_m: dice.decades(1.0, 1e7),
+        damping_n_s_m: if dice.coin() { 0.0 } else { dice.decades(1e-3, 1e4) },
+    })
 }
 
 fn arrangement(dice: &mut Dice, length_m: f64) -> Arrangement {

@@ -3,7 +3,7 @@
 pub mod bends;
 mod body;
 pub mod dice;
-mod drive;
+pub mod drive;
 mod segments;
 
 use magworm::Model;

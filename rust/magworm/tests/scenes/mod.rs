@@ -48,6 +48,11 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             "[{ ratio = 0.34, time_s = 0.084 }, { ratio = 0.1, time_s = 5e-4 }]",
         )],
     ),
+    (
+        "suspended drive",
+        "paper-3",
+        &[("drive.suspension", "{ mass_kg = 0.05, stiffness_n_m = 200, damping_n_s_m = 0.5 }")],
+    ),
     ("uniform field", "paper-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
     (
         "dipoles with varied parameters",
@@ -170,6 +175,15 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("solver.integrator", "'euler'"),
             ("material.relaxation", "[{ ratio = 0.5, time_s = 0.02 }]"),
             ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
+        ],
+    ),
+    (
+        "suspended drive in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("drive.suspension", "{ mass_kg = 0.02, stiffness_n_m = 50 }"),
         ],
     ),
     (

@@ -48,3 +48,4 @@ mod space_wrench;
 mod statics;
 mod statics_buckling;
 mod statics_magnet;
+mod suspension;
