@@ -145,7 +145,8 @@ class Batch:
     @property
     def parameter_names(self) -> tuple[str, ...]: ...
     def set_parameter(self, name: str, factors: ArrayLike) -> None:
-        """Factors (N,) of the scene's value, in force from the next reset on. Raises ValueError."""
+        """Factors (N,) of the scene's value, in force from the next reset on; only 1 of a term that the scene
+        leaves out. Raises ValueError."""
     def parameter(self, name: str) -> NDArray[np.float64]:
         """Factors (N,) as set (without what a reset draws)."""
     def set_magnets_present(self, present: ArrayLike) -> None:
@@ -192,8 +193,8 @@ class Batch:
     def magnet_velocities(self) -> NDArray[np.float64]:
         """(N, M, 3): [m/s], [m/s], [rad/s]; in space (N, M, 6): along and about x, y, z."""
     def magnet_wrenches(self) -> NDArray[np.float64]:
-        """Force [N] and torque about its middle [N·m] of drive and field on each body magnet, as the next
-        step takes them: (N, M, 3), F_x, F_y, T_z; in space (N, M, 6)."""
+        """Force [N] and torque about its middle [N·m] of drive, field and other magnets on each body, as the
+        next step takes them: (N, M, 3), F_x, F_y, T_z; in space (N, M, 6)."""
     def node_positions(self) -> NDArray[np.float64]:
         """(N, K, 2), in space (N, K, 3) [m]: the centre line, head first."""
     def drive_positions(self) -> NDArray[np.float64]:

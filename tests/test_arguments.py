@@ -76,6 +76,7 @@ def test_whole_numbers_of_any_size_and_flags_of_lists_are_taken(batch: Batch) ->
         (lambda b: b.set_parameter("stiffness", [0.9, "x"]), "factors"),
         (lambda b: b.set_parameter("stiffness", [0.9, -1.0]), "stiffness.*1 is -1.*0 to 1e3"),
         (lambda b: b.set_parameter(3, [1.0, 1.0]), "name.*3.*stiffness"),
+        (lambda b: b.set_parameter("mutual", [1.0, 0.5]), "mutual in environment 1 is 0.5; allowed: 1, as"),
         (lambda b: b.set_magnets_present(np.ones((2, 3))), "present.*float64"),
         (lambda b: b.copies([0, -1]), "copy 1 is -1.*0 to 1"),
         (lambda b: b.copies([0.5]), "environments.*float64.*whole"),

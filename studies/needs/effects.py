@@ -33,6 +33,7 @@ EFFECTS = (
     Effect("rubber that relaxes, one branch", "relaxation", "bare"),
     Effect("one drive magnet", "drive", "bare", ("magnets", "drive")),
     Effect("a uniform field", "field", "bare", ("magnets",)),
+    Effect("magnets on each other", "mutual", "bare", ("mutual magnets",)),
     Effect("a magnet lost", "damage", "bare"),
     Effect("ground, robots in the air", "ground", "bare"),
     Effect("friction and adhesion, robots crawling", "step", "no-friction"),

@@ -106,7 +106,7 @@ def under_middle(scene: Scene, time_s: Sequence[float], height_m: Sequence[float
 
 def only(scene: Scene, force: str) -> Scene:
     """The same robot with one of :data:`FORCES` acting and the others switched off."""
-    return scene.with_values({"magnetic_terms": {name: name == force for name in FORCES}})
+    return scene.with_values({f"magnetic_terms.{name}": name == force for name in FORCES})
 
 
 def _motion(scene: Scene, speed_m_s: float, backward: bool, ahead_m: float) -> dict[str, Any]:

@@ -112,6 +112,9 @@ SECTIONS = (
             "the_published_torque_of_two_large_magnets": "converged value",
             "symmetries_of_the_wrench": "symmetry",
             "the_far_field": "dipoles",
+            "two_body_magnets": "converged values, checked against a closed form",
+            "fold_of_a_free_rod": "closed form",
+            "momenta_of_magnets_in_free_flight": "conservation law",
         },
     ),
     Section(

@@ -90,9 +90,9 @@ impl Batch {
     }
 
     fn set_parameter(&self, name: &Bound<'_, PyAny>, factors: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (name, column) = parameter(name)?;
+        let (parameter, column) = parameter(name)?;
         let factors = read::<f64>("factors", factors, &[self.count])?;
-        check_factors(&name, &factors)?;
+        check_factors(&self.model, parameter, &factors)?;
         let mut batch = self.writing()?;
         let rows = batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
         rows.zip(factors).for_each(|(row, factor)| row[column] = factor);

@@ -68,12 +68,12 @@ pub mod internals {
     pub use crate::step::{Steps, advance, run_phase};
 
     pub mod equations {
-        pub use crate::equations::{gravity, inertia, magnets, springs};
+        pub use crate::equations::{gravity, inertia, magnets, mutual, springs};
     }
 
     pub mod lanes {
         pub use crate::lanes::{
-            Dim, InstructionSet, Isa, Mask, Number, Plane, Real, Row, Scalar, Space, WIDE,
+            Dim, InstructionSet, Isa, Mask, Number, Plane, Real, Row, Scalar, Space, Vector, WIDE,
             WIDE_SINGLE, WideTask, run_wide, run_wide_on,
         };
         pub mod math {
@@ -83,9 +83,9 @@ pub mod internals {
 
     pub mod magnetic {
         pub use crate::magnetic::{
-            Cuboid, GaussLegendre, MAX_ORDER, MU_0, Magnet, ObliquePair, Overlap, PlanarDipole,
-            PlanarPair, SpatialPair, Wrench, dipole_wrench, field_t, planar_reaction,
-            spatial_reaction, wrench,
+            Cuboid, FarPair, GaussLegendre, MAX_ORDER, MU_0, Magnet, ObliquePair, Overlap,
+            PlanarDipole, PlanarPair, SpatialPair, Wrench, dipole_wrench, field_t,
+            orders_by_distance, reaction, wrench,
         };
     }
 

@@ -7,7 +7,7 @@ pub use steps::Steps;
 use crate::actuate;
 use crate::contact;
 use crate::elastic::{self, Rod};
-use crate::equations;
+use crate::equations::{self, Cuboids};
 use crate::guard;
 use crate::lanes::{Isa, Number, Plane, Real, Row, Space};
 use crate::model::{Model, Phase};
@@ -32,7 +32,7 @@ fn mark_running<R: Row>(block: &mut Block<R>) {
 }
 
 #[inline(always)]
-fn advance_in<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
+fn advance_in<D: Cuboids, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, steps: u32) {
     for _ in 0..steps {
         step::<D, I>(isa, model, block);
     }
@@ -43,7 +43,7 @@ fn advance_in<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, 
 }
 
 /// One solver step in D dimensions.
-fn step<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
+fn step<D: Cuboids, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     for &phase in &model.phases {
         run::<D, I>(isa, model, block, phase);
     }
@@ -61,7 +61,7 @@ pub fn run_phase<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase
 
 /// One phase in D dimensions, compiled for the instruction set on its own: as one function all phases would take a
 /// compiler minutes. Contact compiles its parts one by one.
-fn run<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
+fn run<D: Cuboids, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: Phase) {
     match phase {
         Phase::Kinematics => isa.vectorize(
             #[inline(always)]
@@ -78,6 +78,10 @@ fn run<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, phase: 
         Phase::Magnets => isa.vectorize(
             #[inline(always)]
             || equations::magnets::<D, I>(isa, model, block),
+        ),
+        Phase::Mutual => isa.vectorize(
+            #[inline(always)]
+            || equations::mutual::<D, I>(isa, model, block),
         ),
         Phase::Springs => isa.vectorize(
             #[inline(always)]

@@ -129,6 +129,12 @@ fn scalar_and_wide_lanes_give_equal_bits_for_unequal_magnets() {
 }
 
 #[test]
+fn scalar_and_wide_lanes_give_equal_bits_for_magnets_on_each_other() {
+    lanes_agree("five magnets on each other", 200, 3);
+    lanes_agree("three magnets on each other in single precision in space", 150, 3);
+}
+
+#[test]
 fn scalar_and_wide_lanes_give_equal_bits_for_four_magnets() {
     lanes_agree("four magnets", 300, 3);
     lanes_agree("four magnets in space without yaw", 150, 3);

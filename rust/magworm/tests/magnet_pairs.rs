@@ -1,8 +1,8 @@
 //! The pair kernels of a step between magnets of any size, direction and relative rotation.
 
+use magworm::internals::lanes::{Plane, Space, Vector};
 use magworm::internals::magnetic::{
-    GaussLegendre, MU_0, Magnet, ObliquePair, SpatialPair, field_t, planar_reaction,
-    spatial_reaction,
+    GaussLegendre, MU_0, Magnet, ObliquePair, SpatialPair, field_t, reaction,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::PI;
@@ -175,7 +175,11 @@ fn the_drive_feels_what_the_body_would_do_to_it() {
         let turn = |first: usize| pose.turn * Vector3::from_column_slice(&exact[first..][..3]);
         let (force, torque) = (turn(0), turn(3));
         let exact = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
-        let found = spatial_reaction(pose.offset.into(), in_space(&pose));
+        let [fx, fy, fz, tx, ty, tz] = in_space(&pose);
+        let wrench = (Vector([fx, fy, fz]), Vector([tx, ty, tz]));
+        let (Vector([fx, fy, fz]), Vector([tx, ty, tz])) =
+            reaction::<Space, f64>(Vector(pose.offset.into()), wrench);
+        let found = [fx, fy, fz, tx, ty, tz];
         let error = difference(found, exact, &swapped);
         assert!(error <= 1e-7, "pose {k}: {error:e}");
     }
@@ -187,7 +191,8 @@ fn reactions_keep_both_momenta() {
         let pose = pose(k, true);
         let (x, y) = (pose.offset.x, pose.offset.y);
         let [fx, fy, torque] = in_plane(&pose);
-        let [gx, gy, back] = planar_reaction([x, y], [fx, fy, torque]);
+        let wrench = (Vector([fx, fy]), Vector([torque]));
+        let (Vector([gx, gy]), Vector([back])) = reaction::<Plane, f64>(Vector([x, y]), wrench);
         assert_eq!([fx + gx, fy + gy], [0.0; 2]);
         assert!((torque + back + (x * fy - y * fx)).abs() <= 1e-15 * (fx.abs() + fy.abs()));
     }

@@ -245,6 +245,8 @@ fn magnets_next_to_each_other_need_rubber_between_them() {
         flush(2, "0.01"),
         ("body.segment[1].elements".into(), Some(1.into())),
         ("body.segment[3].elements".into(), Some(1.into())),
+        // Which would fold it up.
+        ("magnetic_terms.mutual".into(), Some(false.into())),
     ]);
     let close = close.expect("one element between them");
     for dimensions in [2, 3] {

@@ -83,6 +83,16 @@ const FIELD: Edits = &[
     ("material.damping_time_s", "0.0"),
     ("field", "{ x_t = 0.01, y_t = -0.02 }"),
 ];
+const MUTUAL: Edits = &[
+    ("ground", ""),
+    ("drive", ""),
+    ("gravity_m_s2", "0.0"),
+    ("material.damping_time_s", "0.0"),
+    ("magnetic_terms.mutual", "true"),
+];
+/// The whole robot with forces between its magnets, of rubber that is as much stiffer as makes it crawl as it does without them.
+const WITH_MUTUAL: Edits =
+    &[("magnetic_terms.mutual", "true"), ("material.youngs_modulus_pa", "57300")];
 const DAMAGE: Edits = &[
     ("ground", ""),
     ("drive", ""),
@@ -137,6 +147,10 @@ pub const CASES: &[Case] = &[
     case("drive-space", Work::Block, "turn-3", DRIVE),
     case("field-plane", Work::Block, "paper-3", FIELD),
     case("field-space", Work::Block, "turn-3", FIELD),
+    case("mutual-plane", Work::Block, "paper-3", MUTUAL),
+    case("mutual-space", Work::Block, "turn-3", MUTUAL),
+    case("step-mutual-plane", Work::Block, "paper-3", WITH_MUTUAL),
+    case("step-mutual-space", Work::Block, "turn-3", WITH_MUTUAL),
     case("damage-plane", Work::Block, "paper-3", DAMAGE),
     case("damage-space", Work::Block, "turn-3", DAMAGE),
     case("ground-plane", Work::Block, "paper-3", GROUND),

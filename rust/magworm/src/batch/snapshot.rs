@@ -210,10 +210,11 @@ pub(super) fn read_lane<R: Row>(model: &Model, block: &mut Block<R>, lane: usize
     apply_parameters(model, block, lane);
 }
 
-/// A sum over what is declared of the rows of the state.
+/// A sum over what is declared of the rows of the state, and over the parameters that have factors.
 fn layout() -> u64 {
     let state = ROWS.iter().filter(|group| group.role == Role::State);
-    state.fold(Sum::EMPTY, |sum, group| sum.text(group.name).text(group.unit)).value()
+    let rows = state.fold(Sum::EMPTY, |sum, group| sum.text(group.name).text(group.unit));
+    Model::PARAMETERS.iter().fold(rows, |sum, parameter| sum.text(parameter.name())).value()
 }
 
 /// Name of a layout for a message. The first one had no sum.

@@ -6,7 +6,7 @@ use crate::reset::apply_parameters;
 use crate::state::Block;
 use crate::step::run_phase;
 
-/// Force [N] and torque about its middle [N·m] of drive and field on each body of one lane, as the next step takes them:
+/// Force [N] and torque about its middle [N·m] of drive, field and other magnets on each body of one lane, as the next step takes them:
 /// (F_x, F_y, T_z) in the plane, (F_x, F_y, F_z, T_x, T_y, T_z) in space. They come from the phases of a step, run on a copy of
 /// the lane.
 pub(super) fn magnet_wrenches<R: Row>(model: &Model, block: &Block<R>, lane: usize) -> Vec<f64> {
@@ -19,7 +19,9 @@ pub(super) fn magnet_wrenches<R: Row>(model: &Model, block: &Block<R>, lane: usi
     apply_parameters(model, &mut copy, 0);
     run_phase(Scalar, model, &mut copy, Phase::Kinematics);
     copy.rhs.iter_mut().for_each(|row| row[0] = 0.0);
-    run_phase(Scalar, model, &mut copy, Phase::Magnets);
+    for phase in [Phase::Magnets, Phase::Mutual] {
+        run_phase(Scalar, model, &mut copy, phase);
+    }
     let size = model.sizes().body();
     let impulses = model.coordinates.bodies.iter().flat_map(|&dof| &copy.rhs[dof..dof + size]);
     impulses.map(|impulse| impulse[0] / model.step_s).collect()

@@ -80,19 +80,24 @@ struct Sources<'a, I: Isa> {
     stage: Vec3<I::F>,
     /// Sine and cosine of its yaw.
     yaw: (I::F, I::F),
+    /// Factor of each component of a wrench.
+    terms: [I::F; WRENCH],
 }
 
 impl<'a, I: Isa> Sources<'a, I> {
     /// Those of the stage; none where a scene has none.
     #[inline(always)]
     fn of<D: Dim>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
+        let magnetics = model.program.magnetics.as_ref()?;
         let mut actuators = states(&model.program.actuators, &block.stage);
         let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
         let (stage, state): (_, &[I::Row]) = actuators.find_map(stage)?;
         let [x, y, z, yaw] = stage.place_in(isa.splat(0.0), |row| isa.load(&state[row]));
         let robot = block.centre_x_of_lanes(isa, model, stage.robot);
         let (layout, stage) = (&stage.layout, Vector([x, y, z]));
-        Some(Self { layout, robot, stage, yaw: sin_cos(yaw) })
+        let terms =
+            magnetics.terms.map(|(term, acts)| isa.load(&block.factors[term as usize]) * acts);
+        Some(Self { layout, robot, stage, yaw: sin_cos(yaw), terms })
     }
 }
 
@@ -134,7 +139,7 @@ fn planar_wrench<I: Isa>(
     if let Some(arm) = arm {
         (x, y) = (x + arm[0], y + arm[1]);
     }
-    let Sources { layout, robot, stage: Vector([stage_x, stage_y, _]), .. } = *sources;
+    let Sources { layout, robot, stage: Vector([stage_x, stage_y, _]), terms, .. } = *sources;
     let remanence = isa.load(&block.remanence[target]);
     for pair in &magnetics.pairs[target] {
         let source = &model.magnets[pair.source];
@@ -151,7 +156,7 @@ fn planar_wrench<I: Isa>(
             PairModel::SpatialCuboid(_) | PairModel::SpatialDipole(_) => continue,
         };
         for axis in 0..3 {
-            total[axis] = total[axis] + wrench[axis] * magnetics.terms[axis];
+            total[axis] = total[axis] + wrench[axis] * terms[axis];
         }
         block.counters.wrenches += 1;
     }
@@ -172,7 +177,7 @@ fn spatial_wrench<I: Isa>(
     block: &mut Block<I::Row>,
     [body, target]: [usize; 2],
 ) -> [I::F; WRENCH] {
-    let Sources { layout, robot, stage, yaw: (sin, cos) } = *sources;
+    let Sources { layout, robot, stage, yaw: (sin, cos), terms } = *sources;
     let (magnet, dof) = (&model.magnets[target], model.bodies[body].dof);
     let mut total = [isa.splat(0.0); WRENCH];
     let remanence = isa.load(&block.remanence[target]);
@@ -202,8 +207,8 @@ fn spatial_wrench<I: Isa>(
         let force = turned(Vector([fx, fy, fz]), cos, sin);
         let torque = turned(Vector([tx, ty, tz]), cos, sin);
         for axis in 0..3 {
-            total[axis] = total[axis] + force[axis] * strength * magnetics.terms[axis];
-            total[3 + axis] = total[3 + axis] + torque[axis] * strength * magnetics.terms[3 + axis];
+            total[axis] = total[axis] + force[axis] * strength * terms[axis];
+            total[3 + axis] = total[3 + axis] + torque[axis] * strength * terms[3 + axis];
         }
         block.counters.wrenches += 1;
     }

@@ -10,6 +10,7 @@
 
 mod hold;
 mod loads;
+mod mutual;
 mod off_centre;
 mod ties;
 
@@ -20,6 +21,7 @@ use crate::scene::Parameter;
 use crate::state::Block;
 
 pub use loads::{gravity, magnets};
+pub use mutual::{Cuboids, mutual};
 pub use off_centre::carry;
 
 /// Begins matrix and right-hand side of a step: inertia alone.

@@ -5,10 +5,12 @@
 //! | `cuboid` | field of a cuboid in closed form, at any point: [`field_t`]; in lanes: `unit_field` |
 //! | `planar` | wrench between two cuboids in the simulator's plane, in lanes: [`PlanarPair`] |
 //! | `oblique` | the same between magnets of any direction in the plane: [`ObliquePair`] |
-//! | `reaction` | what the body does to the drive: [`planar_reaction`], [`spatial_reaction`] |
+//! | `reaction` | what the target does to the source: [`reaction()`] |
 //! | `spatial` | wrench between two cuboids in space, in lanes: [`SpatialPair`] |
 //! | `wrench` | the same at any distance: [`wrench()`]; with `near`, `far` and `separation` |
 //! | `dipole` | both magnets as points, and the error of that: [`PlanarDipole`], [`SpatialDipole`] |
+//! | `far_pair` | two magnets as points wherever they point, with a bound: [`FarPair`] |
+//! | `orders` | how many points two cuboids need at a distance: [`orders_by_distance`] |
 //! | `uniform` | torque of a uniform field: [`UniformField`] |
 //! | `quadrature` | Gauss–Legendre rules: [`GaussLegendre`] |
 //!
@@ -25,8 +27,10 @@
 mod cuboid;
 mod dipole;
 mod far;
+mod far_pair;
 mod near;
 mod oblique;
+mod orders;
 mod planar;
 mod quadrature;
 mod reaction;
@@ -39,10 +43,12 @@ mod wrench;
 
 pub use cuboid::field_t;
 pub use dipole::{PlanarDipole, SpatialDipole, dipole_wrench};
+pub use far_pair::FarPair;
 pub use oblique::ObliquePair;
+pub use orders::orders_by_distance;
 pub use planar::PlanarPair;
 pub use quadrature::{GaussLegendre, MAX_ORDER};
-pub use reaction::{planar_reaction, spatial_reaction};
+pub use reaction::reaction;
 pub use spatial::SpatialPair;
 pub use uniform::UniformField;
 pub use wrench::{Overlap, wrench};

@@ -96,12 +96,16 @@ impl PlanarPair {
         let plus = square[0] * square[3];
         let minus = square[1] * square[2];
         let distances = (r1[0] - r1[1]) - (r1[2] - r1[3]) - ((r2[0] - r2[1]) - (r2[2] - r2[3]));
-        let bx = distances - edge_logarithm(r1, v1, plus, minus) * (0.5 * v1)
-            + edge_logarithm(r2, v2, plus, minus) * (0.5 * v2);
+        let mut bx = distances - edge_logarithm(r1, v1, plus, minus) * (0.5 * v1);
+        let mut by = face_angle(r1, u, w, v1) * v1;
+        // Of magnets of one width these terms are 0.
+        if v2 > 0.0 {
+            bx = bx + edge_logarithm(r2, v2, plus, minus) * (0.5 * v2);
+            by = by - face_angle(r2, u, w, v2) * v2;
+        }
         let rims = rim_logarithm(r1[0] + r1[1], r2[0] + r2[1], 2.0 * a) * w[0]
             - rim_logarithm(r1[2] + r1[3], r2[2] + r2[3], 2.0 * a) * w[1];
-        let by = face_angle(r1, u, w, v1) * v1 - face_angle(r2, u, w, v2) * v2 + rims;
-        [bx, by]
+        [bx, by + rims]
     }
 }
 

@@ -1,21 +1,15 @@
-//! What a body does to its drive: every force has an equal and opposite one.
+//! Every force between magnets has an equal and opposite one.
 //!
-//! With d from the drive's centre to the body's, F and T on the body, the drive feels −F and, about its own centre,
+//! With d from the place that one wrench is taken about to that of the other, F and T on the target, the source feels −F and
 //! −(T + d × F). Both momenta are then kept to rounding, whatever the quadrature.
 
-use crate::lanes::Real;
+use crate::lanes::{Dim, Real};
 
-/// In the plane: (F_x, F_y, T_z) on the drive from those on a body at `offset`.
+/// Force and torque on the source of a field from those on a target at `offset`.
 #[inline(always)]
-pub fn planar_reaction<F: Real>(offset: [F; 2], [fx, fy, torque]: [F; 3]) -> [F; 3] {
-    let [x, y] = offset;
-    [-fx, -fy, -(torque + (x * fy - y * fx))]
-}
-
-/// In space: force and torque on the drive from those on a body at `offset`.
-#[inline(always)]
-pub fn spatial_reaction<F: Real>(offset: [F; 3], wrench: [F; 6]) -> [F; 6] {
-    let [x, y, z] = offset;
-    let [fx, fy, fz, tx, ty, tz] = wrench;
-    [-fx, -fy, -fz, -(tx + (y * fz - z * fy)), -(ty + (z * fx - x * fz)), -(tz + (x * fy - y * fx))]
+pub fn reaction<D: Dim, F: Real>(
+    offset: D::Vector<F>,
+    (force, torque): (D::Vector<F>, D::Angular<F>),
+) -> (D::Vector<F>, D::Angular<F>) {
+    (-force, -(torque + D::torque(offset, force)))
 }

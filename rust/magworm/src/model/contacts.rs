@@ -117,7 +117,8 @@ fn moves_with(frame: Frame, coordinates: &Coordinates) -> Option<(usize, bool)> 
     }
 }
 
-fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
+/// Mass of the whole body with all its magnets [kg].
+pub(super) fn body_mass_kg(scene: &Scene, mesh: &Mesh) -> f64 {
     let rubber_m3: f64 = (0..mesh.elements.len()).map(|e| mesh.volume_m3(e)).sum();
     scene.material.density_kg_m3 * rubber_m3 + magnets_kg(mesh)
 }

@@ -38,6 +38,7 @@ impl Model {
         line("gravity", self.explain_gravity());
         line("ground", self.explain_ground());
         line("drive", self.explain_drive());
+        line("mutual", self.explain_mutual());
         line("uniform field", self.explain_field());
         text
     }
@@ -109,6 +110,16 @@ impl Model {
             let damping = 0.5 * damping_n_s_m / (stiffness_n_m * mass_kg).sqrt();
             format!("; the stage gives way at {swing_hz:.3} Hz, damping ratio {damping:.3}")
         })
+    }
+
+    fn explain_mutual(&self) -> String {
+        match &self.program.mutual {
+            Some(mutual) => mutual.explain(self),
+            None if self.scene.magnetic_terms.mutual => {
+                "left out: the body has fewer than two magnets".to_string()
+            }
+            None => "left out: magnetic_terms.mutual is false".to_string(),
+        }
     }
 
     fn explain_field(&self) -> String {

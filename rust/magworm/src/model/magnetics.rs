@@ -3,7 +3,7 @@
 use super::{Carrier, Magnet};
 use crate::lanes::Dimensions;
 use crate::magnetic::{ObliquePair, PlanarDipole, PlanarPair, SpatialDipole, SpatialPair};
-use crate::scene::{Direction, MagnetModel, Scene};
+use crate::scene::{Direction, MagnetModel, Parameter, Scene};
 
 /// The pairs of magnets of a scene, and which components of their wrench act.
 #[derive(Clone, Debug)]
@@ -12,9 +12,9 @@ pub struct Magnetics {
     pub pairs: Vec<Vec<MagneticPair>>,
     /// The models that pairs name: one for all pairs that are alike.
     pub models: Vec<PairModel>,
-    /// 1 for components that act, 0 for those switched off: (F_x, F_y, T_z) in the plane, where those beyond do not count,
-    /// (F_x, F_y, F_z, T_x, T_y, T_z) in space.
-    pub terms: [f64; 6],
+    /// The parameter that each component is multiplied by, and 1 where it acts, 0 where it is switched off: (F_x, F_y, T_z) in
+    /// the plane, where those beyond do not count, (F_x, F_y, F_z, T_x, T_y, T_z) in space.
+    pub terms: [(Parameter, f64); 6],
     /// Steps for which a wrench acts; 1: it is computed in each, and nothing is held.
     pub interval: u64,
 }
@@ -83,31 +83,41 @@ impl Magnetics {
 }
 
 impl PairModel {
-    /// The model of two magnets, the source upright.
+    /// The model of a drive magnet, which stands upright, and a body magnet.
     fn new(scene: &Scene, source: &Magnet, target: &Magnet) -> Self {
-        let (from, to, order) = (source.cuboid(), target.cuboid(), scene.solver.quadrature_order);
-        let (of_from, of_to) = (source.unit(), target.unit());
         match (scene.solver.magnet_model, scene.dimensions) {
-            (MagnetModel::Cuboid, 2) => match target.direction {
-                Direction::Up => Self::Cuboid(PlanarPair::new(from, to, order)),
-                Direction::Oblique(_) => {
-                    Self::ObliqueCuboid(Box::new(ObliquePair::new(&of_from, &of_to, order)))
-                }
-            },
-            (MagnetModel::Dipole, 2) => Self::Dipole(PlanarDipole::new(from, to)),
             (MagnetModel::Cuboid, _) => {
-                Self::SpatialCuboid(SpatialPair::new(&of_from, &of_to, order))
+                Self::cuboids(scene, source, target, scene.solver.quadrature_order)
             }
-            (MagnetModel::Dipole, _) => Self::SpatialDipole(SpatialDipole::new(from, to)),
+            (MagnetModel::Dipole, 2) => {
+                Self::Dipole(PlanarDipole::new(source.cuboid(), target.cuboid()))
+            }
+            (MagnetModel::Dipole, _) => {
+                Self::SpatialDipole(SpatialDipole::new(source.cuboid(), target.cuboid()))
+            }
+        }
+    }
+
+    /// Two cuboids of any direction, with so many points an edge.
+    pub(super) fn cuboids(scene: &Scene, source: &Magnet, target: &Magnet, order: usize) -> Self {
+        let units = [source, target].map(Magnet::unit);
+        if scene.dimensions == 3 {
+            return Self::SpatialCuboid(SpatialPair::new(&units[0], &units[1], order));
+        }
+        match [source.direction, target.direction] {
+            [Direction::Up, Direction::Up] => {
+                Self::Cuboid(PlanarPair::new(source.cuboid(), target.cuboid(), order))
+            }
+            _ => Self::ObliqueCuboid(Box::new(ObliquePair::new(&units[0], &units[1], order))),
         }
     }
 }
 
-/// 1 for each component of a wrench that acts, else 0.
-fn terms(scene: &Scene) -> [f64; 6] {
-    let (terms, axes) = (&scene.magnetic_terms, Dimensions::new(scene.dimensions).axes);
-    let forces = [terms.horizontal_force, terms.vertical_force, terms.horizontal_force];
-    let mut acts = [terms.torque; 6];
-    acts[..axes].copy_from_slice(&forces[..axes]);
-    acts.map(|on| if on { 1.0 } else { 0.0 })
+/// The parameter of each component of a wrench, and 1 where it acts, else 0.
+fn terms(scene: &Scene) -> [(Parameter, f64); 6] {
+    let axes = Dimensions::new(scene.dimensions).axes;
+    let forces = [Parameter::HorizontalForce, Parameter::VerticalForce, Parameter::HorizontalForce];
+    let mut terms = [Parameter::Torque; 6];
+    terms[..axes].copy_from_slice(&forces[..axes]);
+    terms.map(|term| (term, if scene.magnetic_terms.has(term) { 1.0 } else { 0.0 }))
 }

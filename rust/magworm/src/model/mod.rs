@@ -9,6 +9,8 @@ mod inertia;
 mod line;
 mod magnet;
 mod magnetics;
+mod mutual;
+mod pair_by_distance;
 mod phases;
 mod relaxation;
 mod rigid_body;
@@ -24,6 +26,8 @@ pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre};
 pub use magnet::{Carrier, Magnet};
 pub use magnetics::{Magnetics, PairModel};
+pub use mutual::Mutual;
+pub use pair_by_distance::PairByDistance;
 pub use phases::Phase;
 pub use relaxation::{Branch, Relaxation};
 pub use rigid_body::RigidBody;
@@ -90,6 +94,8 @@ pub struct Program {
     pub gravity_m_s2: Option<[f64; 3]>,
     /// Wrench of the drive magnets on the body magnets.
     pub magnetics: Option<Magnetics>,
+    /// Wrenches of the body magnets on each other.
+    pub mutual: Option<Mutual>,
     /// Torque of a uniform field on the body magnets.
     pub uniform_field: Option<UniformTorque>,
     /// Branches of rubber that relaxes.
@@ -224,7 +230,7 @@ impl Model {
     }
 
     /// The parameters that each environment may have for its own.
-    pub const PARAMETERS: [Parameter; 7] = [
+    pub const PARAMETERS: [Parameter; 11] = [
         Parameter::Stiffness,
         Parameter::Damping,
         Parameter::Mass,
@@ -232,6 +238,10 @@ impl Model {
         Parameter::StaticFriction,
         Parameter::DynamicFriction,
         Parameter::DriveSpeed,
+        Parameter::HorizontalForce,
+        Parameter::VerticalForce,
+        Parameter::Torque,
+        Parameter::Mutual,
     ];
 }
 
@@ -243,6 +253,7 @@ impl Program {
         Self {
             gravity_m_s2: (scene.gravity_m_s2 > 0.0).then(|| gravity(scene)),
             magnetics: (magnetic && !moved.is_empty()).then(|| Magnetics::new(scene, magnets)),
+            mutual: Mutual::new(scene, mesh, magnets),
             uniform_field: field.map(|field| UniformTorque {
                 field_t: [field.x_t, field.y_t, field.z_t],
                 magnets: held.iter().map(|magnet| UniformField::new(magnet.cuboid())).collect(),

@@ -13,6 +13,8 @@ pub enum Phase {
     Gravity,
     /// Wrench of the drive, torque of a uniform field.
     Magnets,
+    /// Wrenches of the body magnets on each other.
+    Mutual,
     /// Stretching, bending and twisting with their damping; multipliers where the integrator has them.
     Springs,
     /// The linear system of a step without ground.
@@ -39,6 +41,7 @@ impl Phase {
             Self::Inertia => "inertia",
             Self::Gravity => "gravity",
             Self::Magnets => "magnets",
+            Self::Mutual => "mutual magnets",
             Self::Springs => "springs",
             Self::System => "system",
             Self::ContactPoints => "contact points",
@@ -59,6 +62,7 @@ impl Phase {
             (Self::Inertia, true),
             (Self::Gravity, program.gravity_m_s2.is_some()),
             (Self::Magnets, magnetic),
+            (Self::Mutual, program.mutual.is_some()),
             (Self::Springs, true),
             (Self::System, !touches),
             (Self::ContactPoints, touches),

@@ -261,6 +261,7 @@ static MAGNETIC_TERMS: Table = Table {
         optional("horizontal_force", Kind::Flag),
         optional("vertical_force", Kind::Flag),
         optional("torque", Kind::Flag),
+        optional("mutual", Kind::Flag),
     ],
 };
 
@@ -313,6 +314,10 @@ const PARAMETERS: &[&str] = &[
     "static_friction",
     "dynamic_friction",
     "drive_speed",
+    "horizontal_force",
+    "vertical_force",
+    "torque",
+    "mutual",
 ];
 
 static VARIATION: Table = Table {

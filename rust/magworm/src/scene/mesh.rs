@@ -91,10 +91,14 @@ impl Mesh {
 
     /// Mean distance between the middles of adjacent bodies [m]; none with less than two.
     pub fn pitch_m(&self) -> Option<f64> {
-        let middle_m =
-            |body: &RigidElement| 0.5 * (self.arc_m[body.element] + self.arc_m[body.element + 1]);
-        let [first, .., last] = self.bodies.as_slice() else { return None };
-        Some((middle_m(last) - middle_m(first)) / (self.bodies.len() - 1) as f64)
+        let last = self.bodies.len().checked_sub(1).filter(|last| *last > 0)?;
+        Some((self.middle_m(last) - self.middle_m(0)) / last as f64)
+    }
+
+    /// Place of the middle of a body along the rest body, from the head end [m].
+    pub fn middle_m(&self, body: usize) -> f64 {
+        let element = self.bodies[body].element;
+        0.5 * (self.arc_m[element] + self.arc_m[element + 1])
     }
 
     /// The magnets of a body.

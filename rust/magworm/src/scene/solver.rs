@@ -11,9 +11,9 @@ pub struct Solver {
     pub integrator: Integrator,
     /// Time step [s].
     pub step_s: f64,
-    /// Model of the drive's wrench on a body magnet.
+    /// Model of the wrench between two magnets.
     pub magnet_model: MagnetModel,
-    /// Gauss–Legendre points per edge of a charged face.
+    /// Gauss–Legendre points per edge of a charged face in the field of the drive.
     pub quadrature_order: usize,
     /// Solver steps for which a wrench of the drive acts before it is computed anew; 1: it is computed in every step. Divides
     /// the steps of a control step, so that each begins with a new wrench. What is lost and gained: docs/performance.md.
@@ -165,6 +165,14 @@ pub enum Parameter {
     DynamicFriction,
     /// Velocity of a drive in constant motion.
     DriveSpeed,
+    /// Horizontal force of the drive.
+    HorizontalForce,
+    /// Vertical force of the drive.
+    VerticalForce,
+    /// Torque of the drive.
+    Torque,
+    /// Forces and torques of the body's magnets on each other.
+    Mutual,
 }
 
 impl Parameter {
@@ -178,6 +186,10 @@ impl Parameter {
             Self::StaticFriction => "static_friction",
             Self::DynamicFriction => "dynamic_friction",
             Self::DriveSpeed => "drive_speed",
+            Self::HorizontalForce => "horizontal_force",
+            Self::VerticalForce => "vertical_force",
+            Self::Torque => "torque",
+            Self::Mutual => "mutual",
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Ground, uniform field, and the choice of magnetic terms.
 
+use super::Parameter;
 use serde::{Deserialize, Serialize};
 
 /// Flat, rigid ground with static and dynamic friction (paper, contact section):
@@ -35,7 +36,8 @@ pub struct UniformField {
     pub z_t: f64,
 }
 
-/// Components of the magnetic wrench that act; the paper's ablations switch single ones off.
+/// Components of the drive's wrench that act, and the forces between the body's magnets; the paper has none of the latter, and
+/// its ablations switch single components off.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MagneticTerms {
@@ -45,11 +47,26 @@ pub struct MagneticTerms {
     pub vertical_force: bool,
     /// Torque about z; in space about all axes.
     pub torque: bool,
+    /// Force and torque of the body's magnets on each other.
+    pub mutual: bool,
 }
 
 impl Default for MagneticTerms {
     fn default() -> Self {
-        Self { horizontal_force: true, vertical_force: true, torque: true }
+        Self { horizontal_force: true, vertical_force: true, torque: true, mutual: true }
+    }
+}
+
+impl MagneticTerms {
+    /// Whether the term that a parameter is a factor of acts; other parameters have none.
+    pub fn has(&self, parameter: Parameter) -> bool {
+        match parameter {
+            Parameter::HorizontalForce => self.horizontal_force,
+            Parameter::VerticalForce => self.vertical_force,
+            Parameter::Torque => self.torque,
+            Parameter::Mutual => self.mutual,
+            _ => true,
+        }
     }
 }
 

@@ -58,7 +58,7 @@ pub struct Counters {
     pub factorisations: u64,
     /// Trials of the contact solve, see [`crate::contact`].
     pub trials: u64,
-    /// Wrenches of one drive magnet on one body magnet.
+    /// Wrenches of one magnet on another.
     pub wrenches: u64,
 }
 

@@ -112,7 +112,8 @@ impl World {
     fn fall_apart(&mut self, place: usize) {
         let parameters = Model::PARAMETERS.len();
         let factors = &mut self.batch.factors_mut()[place * parameters..][..parameters];
-        factors.copy_from_slice(&[1e-7, 0.0, 1.0, 30.0, 1.0, 1.0, 1.0]);
+        factors.fill(1.0);
+        factors[..4].copy_from_slice(&[1e-7, 0.0, 1.0, 30.0]);
         let steep = StartPose { height_m: 0.02, angle_rad: 0.7, ..StartPose::default() };
         self.batch.reset(place, self.robots[place], 2, Some(steep));
     }

@@ -216,7 +216,7 @@ fn refuses_variations_without_sense() {
         (
             "[{ parameter = \"colour\", low = 1, high = 1 }]",
             "reset.vary[0].parameter is \"colour\"; allowed: stiffness, damping, mass, remanence, \
-             static_friction, dynamic_friction, drive_speed",
+             static_friction, dynamic_friction, drive_speed, horizontal_force, vertical_force, torque, mutual",
         ),
         (
             "[{ parameter = \"mass\", low = 1 }]",

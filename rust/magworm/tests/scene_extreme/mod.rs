@@ -35,7 +35,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 magnet: Some(magnet),
                 drive: (rest.between(0.0, 1.0) < 0.8).then(|| drive(&mut world, motion)),
                 field: None,
-                magnetic_terms: MagneticTerms::default(),
+                magnetic_terms: MagneticTerms { mutual: rest.coin(), ..MagneticTerms::default() },
                 start: Start {
                     x_m: 0.0,
                     height_m: if rest.coin() { 0.0 } else { rest.decades(1e-4, 1.0) },

@@ -38,21 +38,23 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 mut shape,
             )| {
                 let control = control(&mut time, &solver);
+                let gravity_m_s2 = rest.between(0.0, 981.0);
+                let (material, terms) = (material(&mut rest), magnetic_terms(&mut rest));
                 let scene = Scene {
                     name,
-                    gravity_m_s2: rest.between(0.0, 981.0),
+                    gravity_m_s2,
                     dimensions,
                     body,
-                    material: material(&mut rest),
+                    material,
                     magnet,
-                    magnetic_terms: magnetic_terms(&mut rest),
+                    magnetic_terms: terms.clone(),
                     start: start(&mut reset, ground.is_some(), dimensions),
                     ground,
                     drive,
                     field,
                     solver: with_interval(solver, &control, time.whole(1, 12)),
                     control,
-                    reset: random_reset(&mut reset),
+                    reset: random_reset(&mut reset, &terms),
                 };
                 // Bodies off their centre have no explicit scheme.
                 let scene = if scene.validate().is_err() { implicit(scene) } else { scene };
@@ -146,6 +148,7 @@ fn magnetic_terms(dice: &mut Dice) -> MagneticTerms {
         horizontal_force: dice.coin(),
         vertical_force: dice.coin(),
         torque: dice.coin(),
+        mutual: dice.coin(),
     }
 }
 
@@ -197,8 +200,8 @@ fn control(dice: &mut Dice, solver: &Solver) -> Control {
     Control { step_s, episode_s: step_s * dice.whole(1, most) as f64 }
 }
 
-fn random_reset(dice: &mut Dice) -> Reset {
-    let mut parameters = [
+fn random_reset(dice: &mut Dice, terms: &MagneticTerms) -> Reset {
+    let mut parameters = vec![
         Parameter::Stiffness,
         Parameter::Damping,
         Parameter::Mass,
@@ -206,7 +209,12 @@ fn random_reset(dice: &mut Dice) -> Reset {
         Parameter::StaticFriction,
         Parameter::DynamicFriction,
         Parameter::DriveSpeed,
+        Parameter::HorizontalForce,
+        Parameter::VerticalForce,
+        Parameter::Torque,
+        Parameter::Mutual,
     ];
+    parameters.retain(|parameter| terms.has(*parameter));
     let first = dice.whole(0, parameters.len() - 1);
     parameters.rotate_left(first);
     let count = dice.whole(0, parameters.len());

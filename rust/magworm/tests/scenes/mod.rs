@@ -21,6 +21,9 @@ const MIXED: &str = "{ kind = 'segments', segment = [
 /// Fields of a scene and their values in TOML; an empty text takes a field out.
 type Edits = &'static [(&'static str, &'static str)];
 
+/// Rubber that magnets of any strength drawn do not fold up.
+const FIRM: (&str, &str) = ("material.youngs_modulus_pa", "5e5");
+
 /// Name, preset and edits of each scene.
 pub const SCENES: &[(&str, &str, Edits)] = &[
     ("three magnets", "paper-3", &[]),
@@ -234,7 +237,13 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     (
         "mixed magnets",
         "paper-3",
-        &[("magnet", ""), ("body", MIXED), ("field", "{ x_t = 0.002, y_t = -0.001 }")],
+        &[
+            ("magnet", ""),
+            ("body", MIXED),
+            ("field", "{ x_t = 0.002, y_t = -0.001 }"),
+            ("magnetic_terms.mutual", "true"),
+            FIRM,
+        ],
     ),
     (
         "mixed magnets in space",
@@ -245,6 +254,8 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("drive.motion.yaw_reach_deg", "120"),
             ("magnet", ""),
             ("body", MIXED),
+            ("magnetic_terms.mutual", "true"),
+            FIRM,
             ("body.segment[2].magnet.aside_m", "-0.001"),
             ("body.segment[4].magnet.aside_deg", "35"),
         ],
@@ -259,8 +270,27 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("drive.motion.lateral_reach_m", "0.03"),
             ("magnet", ""),
             ("body", MIXED),
+            ("magnetic_terms.mutual", "true"),
+            FIRM,
             ("body.segment[2].magnet.aside_m", "-0.001"),
             ("body.segment[4].magnet.aside_deg", "35"),
+        ],
+    ),
+    (
+        "five magnets on each other",
+        "paper-5",
+        &[("magnetic_terms.mutual", "true"), FIRM, ("solver.wrench_interval", "5")],
+    ),
+    (
+        "three magnets on each other in single precision in space",
+        "paper-3",
+        &[
+            ("magnetic_terms.mutual", "true"),
+            FIRM,
+            ("dimensions", "3"),
+            ("solver.precision", "'single'"),
+            ("drive.motion.lateral_reach_m", "0.04"),
+            ("drive.motion.yaw_reach_deg", "120"),
         ],
     ),
     ("rolled up", "paper-4", &[("start.bends_deg", "[150, 0, 270]")]),

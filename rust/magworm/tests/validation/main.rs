@@ -24,6 +24,7 @@ mod flight;
 mod magnet_field;
 mod magnet_symmetry;
 mod magnet_wrench;
+mod mutual;
 mod oblique;
 mod odd_bodies;
 mod off_centre;

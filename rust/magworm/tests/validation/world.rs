@@ -17,6 +17,8 @@ elements = 20
 [material]
 youngs_modulus_pa = 100e3
 density_kg_m3 = 1000
+[magnetic_terms]
+mutual = false
 [solver]
 step_s = 0.001
 [control]

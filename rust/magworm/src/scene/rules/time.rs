@@ -91,6 +91,12 @@ fn variations(scene: &Scene) -> Result<(), Problem> {
         require(!twice, format!("{path}.parameter"), name(one.parameter), || {
             "each parameter at most once".into()
         })?;
+        require(
+            scene.magnetic_terms.has(one.parameter),
+            format!("{path}.parameter"),
+            name(one.parameter),
+            || format!("a term that acts: magnetic_terms.{} is false", one.parameter.name()),
+        )?;
         require(one.low <= one.high, format!("{path}.low"), quantity(one.low, ""), || {
             format!("at most {path}.high = {}", quantity(one.high, ""))
         })

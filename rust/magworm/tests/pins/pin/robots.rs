@@ -23,6 +23,9 @@ const BURIED: u64 = 5;
 /// All of them; the last two break.
 pub const ALL: &[u64] = &[OWN, DAMAGED, TILTED, RESET, LIMP, BURIED];
 
+/// So many parameters are a robot's own: those that there were when the pins were made.
+const DRAWN: usize = 7;
+
 /// Control step in which robots meet their fate.
 const FATE: u64 = 100;
 
@@ -68,7 +71,7 @@ impl Robots {
         let robot = self.numbers[place];
         let mut draws = Draws::new(robot, 1000 + episode);
         let spread = if robot == OWN { 1.0 } else { 1.5 };
-        let factors = Model::PARAMETERS.map(|_| draws.uniform(1.0 / spread, spread));
+        let factors: [f64; DRAWN] = std::array::from_fn(|_| draws.uniform(1.0 / spread, spread));
         self.set_factors(place, factors);
         let magnets = self.batch.model().magnets();
         if robot == DAMAGED && magnets > 0 {
@@ -82,7 +85,8 @@ impl Robots {
     }
 
     fn set_factors<const N: usize>(&mut self, place: usize, factors: [f64; N]) {
-        self.batch.factors_mut()[place * N..][..N].copy_from_slice(&factors);
+        let parameters = Model::PARAMETERS.len();
+        self.batch.factors_mut()[place * parameters..][..N].copy_from_slice(&factors);
     }
 
     fn meet_fate(&mut self) {
