@@ -37,7 +37,7 @@ pub fn magnets<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
         Some(due) => due.any(),
         None => true,
     };
-    let sources = Sources::of::<D>(isa, model, block);
+    let sources = Sources::of(isa, model, block);
     block.drive_load.iter_mut().for_each(|row| isa.store(isa.splat(0.0), row));
     for (body, RigidBody { dof, magnets, .. }) in model.bodies.iter().enumerate() {
         let mut wrench = [isa.splat(0.0); WRENCH];
@@ -87,7 +87,7 @@ struct Sources<'a, I: Isa> {
 impl<'a, I: Isa> Sources<'a, I> {
     /// Those of the stage; none where a scene has none.
     #[inline(always)]
-    fn of<D: Dim>(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
+    fn of(isa: I, model: &'a Model, block: &Block<I::Row>) -> Option<Self> {
         let magnetics = model.program.magnetics.as_ref()?;
         let mut actuators = states(&model.program.actuators, &block.stage);
         let stage = |(actuator, state): (&'a Actuator, _)| Some((actuator.stage()?, state));
