@@ -223,7 +223,7 @@ proptest! {
         spoil(&mut scene, place, number);
         match Model::compile(&scene) {
             Err(error) => prop_assert!(!error.to_string().is_empty()),
-            Ok(model) => run(model, &[1.0; 7], seed)?,
+            Ok(model) => run(model, &[1.0; Model::PARAMETERS.len()], seed)?,
         }
     }
 }
