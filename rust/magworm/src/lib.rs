@@ -1,7 +1,7 @@
 //! Batched simulator of magnet-driven soft worms (MagWorm, Soft Robotics, DOI 10.1089/soro.2019.0167).
 //!
-//! [`Scene`] (what a person writes) → [`Model`] (compiled, shared) → [`Batch`] (environments of one model, advanced on all
-//! cores) → [`View`] (one environment, looked at). What an agent sees and does is declared in [`observe`].
+//! [`Scene`] (what a person writes) → [`Model`] (compiled, shared) → [`Batch`] (environments of one model or of an
+//! [`Ensemble`], advanced on all cores) → [`View`] (one environment, looked at). What an agent sees and does is declared in [`observe`].
 //!
 //! ```
 //! use magworm::{Batch, LaneChoice, Model, scene::Scene};
@@ -44,7 +44,9 @@ mod specification;
 mod state;
 mod step;
 
-pub use batch::{Batch, LaneChoice, Plan, RolloutOutput, SnapshotError, Start, StepOutput, View};
+pub use batch::{
+    Batch, Ensemble, LaneChoice, Plan, RolloutOutput, SnapshotError, Start, StepOutput, View,
+};
 pub use interruption::{Interrupted, Interruption};
 pub use model::Model;
 pub use reset::StartPose;

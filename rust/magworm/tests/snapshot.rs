@@ -90,18 +90,22 @@ fn refuses(world: &mut World, bytes: &[u8], error: &SnapshotError) {
     assert!(!error.to_string().is_empty() && !error.to_string().contains('\n'));
 }
 
+fn another_scene_than(name: &str, environment: usize) -> SnapshotError {
+    SnapshotError::Scene { environment, name: name.into() }
+}
+
 #[test]
 fn a_snapshot_of_another_scene_is_refused() {
     let own = model("three magnets");
     let snapshot = aged(&own, Wide).batch.snapshot();
     for (scene, ..) in SCENES.iter().filter(|(scene, ..)| *scene != "three magnets") {
-        refuses(&mut aged(&model(scene), Wide), &snapshot, &SnapshotError::Scene);
+        refuses(&mut aged(&model(scene), Wide), &snapshot, &another_scene_than(scene, 0));
     }
     // The same shapes, one value apart.
     let edit = [("gravity_m_s2".to_string(), Some(9.82.into()))];
     let scene = own.scene.with_values(&edit);
     let other = Arc::new(Model::compile(&scene.expect("a scene")).expect("a model"));
-    refuses(&mut aged(&other, Wide), &snapshot, &SnapshotError::Scene);
+    refuses(&mut aged(&other, Wide), &snapshot, &another_scene_than("three magnets", 0));
 }
 
 #[test]
@@ -196,7 +200,7 @@ fn a_number_that_no_robot_has_is_refused_by_name() {
             let error = world.batch.restore(&changed).expect_err(name).to_string();
             assert!(error.starts_with(&format!("{name} of environment 1")), "{error}");
         }
-        refuses(&mut world, &with_word(&snapshot, &model, 0, 0), &SnapshotError::Scene);
+        refuses(&mut world, &with_word(&snapshot, &model, 0, 0), &another_scene_than(scene, 1));
         assert_eq!(world.batch.snapshot(), snapshot);
     }
 }

@@ -1,65 +1,59 @@
 //! Work on all blocks of a batch. Where it is stopped, all of them are as before.
 
-use super::control::{ControlRows, control_block};
-use super::{Pool, StepOutput};
+use super::cohort::{Cohort, Seats};
+use super::control::control_block;
+use super::{Ensemble, Pool, StepOutput};
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
-use crate::model::Model;
-use crate::observe;
 use crate::reset::apply_parameters;
 use crate::state::Block;
 use crate::step::Steps;
-use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
-use rayon::slice::ParallelSliceMut;
+use std::sync::Arc;
 
-/// Blocks for so many environments, all unused.
+/// Blocks for these environments, all unused.
 pub(super) fn new_blocks<R: Row>(
-    model: &Model,
-    count: usize,
+    ensemble: &Ensemble,
+    seats: &[Seats],
     pool: &Pool,
     interruption: &Interruption<'_>,
-) -> Result<Vec<Block<R>>, Interrupted> {
-    let mut made: Vec<Option<Block<R>>> = Vec::new();
-    made.resize_with(count.div_ceil(R::LANES), || None);
-    pool.fill(interruption, &mut made, 1, |_, block| {
-        let made = block[0].insert(Block::new(model));
+) -> Result<Vec<Cohort<R>>, Interrupted> {
+    let mut made: Vec<Option<Cohort<R>>> = Vec::new();
+    made.resize_with(seats.len(), || None);
+    pool.fill(interruption, &mut made, 1, |index, cohort| {
+        let seats = seats[index];
+        let model = Arc::clone(&ensemble.models()[seats.scene]);
+        let block = Block::new(&model);
+        let Cohort { block, .. } = cohort[0].insert(Cohort { seats, model, block });
         // Now, while whoever makes them knows that there is memory for it: a call may have to keep the state.
-        made.begin(interruption);
-        made.forget();
+        block.begin(interruption);
+        block.forget();
     })?;
     Ok(made.into_iter().flatten().collect())
 }
 
-/// Environments of each of these blocks.
-pub(super) fn lanes_of<R: Row>(_: &[Block<R>]) -> usize {
-    R::LANES
-}
-
-/// Does the work on each block, which it is given with its index. Where it is stopped, all blocks are as before.
+/// Does the work on each block. Where it is stopped, all blocks are as before.
 pub(super) fn each_block<R: Row>(
-    model: &Model,
     pool: &Pool,
     interruption: &Interruption<'_>,
-    blocks: &mut [Block<R>],
-    work: impl Fn(usize, &mut Block<R>) + Sync,
+    cohorts: &mut [Cohort<R>],
+    work: impl Fn(&mut Cohort<R>) + Sync,
 ) -> Result<(), Interrupted> {
-    pool.each(interruption, blocks, 1, |index, block| {
-        if block[0].begin(interruption) {
-            work(index, &mut block[0]);
+    pool.each(interruption, cohorts, 1, |_, cohort| {
+        if cohort[0].block.begin(interruption) {
+            work(&mut cohort[0]);
         }
     });
-    settle(model, blocks, interruption)
+    settle(cohorts, interruption)
 }
 
 /// Ends what may have been stopped: blocks go on, or back to where they were.
 pub(super) fn settle<R: Row>(
-    model: &Model,
-    blocks: &mut [Block<R>],
+    cohorts: &mut [Cohort<R>],
     interruption: &Interruption<'_>,
 ) -> Result<(), Interrupted> {
     let outcome = interruption.last_asked();
     if interruption.is_possible() {
-        for block in blocks {
+        for Cohort { model, block, .. } in cohorts {
             if outcome.is_err() && block.put_back() {
                 (0..R::LANES).for_each(|lane| apply_parameters(model, block, lane));
             }
@@ -69,21 +63,9 @@ pub(super) fn settle<R: Row>(
     outcome
 }
 
-pub(super) fn place<R: Row>(blocks: &[Block<R>], environment: usize) -> (&Block<R>, usize) {
-    (&blocks[environment / R::LANES], environment % R::LANES)
-}
-
-pub(super) fn place_mut<R: Row>(
-    blocks: &mut [Block<R>],
-    environment: usize,
-) -> (&mut Block<R>, usize) {
-    (&mut blocks[environment / R::LANES], environment % R::LANES)
-}
-
-/// Blocks with the rows of the output that belong to each.
+/// A control step of all blocks, each with the rows of the output that belong to it.
 pub(super) fn control_step<R: Row>(
-    model: &Model,
-    blocks: &mut [Block<R>],
+    cohorts: &mut [Cohort<R>],
     pool: Option<&rayon::ThreadPool>,
     actions: &[f64],
     output: StepOutput<'_>,
@@ -91,29 +73,35 @@ pub(super) fn control_step<R: Row>(
 ) where
     Block<R>: Steps,
 {
-    let width = observe::size(model);
-    let work = |index: usize, block: &mut Block<R>, rows: ControlRows<'_>| {
-        if block.begin(interruption) {
+    let work = |cohort: &mut Cohort<R>, rows: StepOutput<'_>| {
+        if cohort.block.begin(interruption) {
             // Where it was stopped, the block is put back.
-            let _ = control_block(model, block, index * R::LANES, actions, rows, interruption);
+            let _ = control_block(cohort, actions, rows, interruption);
         }
     };
-    let StepOutput { observation, progress_m, status } = output;
-    interruption.run(pool, || match pool {
-        None => {
-            let rows = observation.chunks_mut(R::LANES * width);
-            let rows = rows.zip(progress_m.chunks_mut(R::LANES)).zip(status.chunks_mut(R::LANES));
-            for (index, (block, rows)) in blocks.iter_mut().zip(rows).enumerate() {
-                work(index, block, ControlRows::new(rows));
-            }
-        }
-        Some(_) => {
-            let rows = observation.par_chunks_mut(R::LANES * width);
-            let rows =
-                rows.zip(progress_m.par_chunks_mut(R::LANES)).zip(status.par_chunks_mut(R::LANES));
-            blocks.par_iter_mut().zip(rows).enumerate().for_each(|(index, (block, rows))| {
-                work(index, block, ControlRows::new(rows));
-            });
-        }
-    });
+    interruption.run(pool, || deal(cohorts, output, pool.is_some(), &work));
+}
+
+/// Halves cohorts and rows until each cohort has its own: blocks may hold different numbers of environments.
+fn deal<R: Row>(
+    cohorts: &mut [Cohort<R>],
+    output: StepOutput<'_>,
+    parallel: bool,
+    work: &(impl Fn(&mut Cohort<R>, StepOutput<'_>) + Sync),
+) {
+    let middle = cohorts.len() / 2;
+    let (before, behind) = match cohorts {
+        [] => return,
+        [one] => return work(one, output),
+        many => many.split_at_mut(middle),
+    };
+    let (upper, lower) = output.split_at(behind[0].seats.first - before[0].seats.first);
+    let first = || deal(before, upper, parallel, work);
+    let second = || deal(behind, lower, parallel, work);
+    if parallel {
+        rayon::join(first, second);
+    } else {
+        first();
+        second();
+    }
 }

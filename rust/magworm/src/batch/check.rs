@@ -37,8 +37,15 @@ pub enum SnapshotError {
         expected: u64,
     },
     /// Of another scene.
-    #[error("state was saved from another scene; compare the scenes' TOML")]
-    Scene,
+    #[error(
+        "state of environment {environment} was saved from another scene than {name:?}, which it has here; compare the scenes' TOML"
+    )]
+    Scene {
+        /// Which environment.
+        environment: usize,
+        /// Name of the scene that it has in the batch.
+        name: String,
+    },
     /// A number that no robot of this scene has.
     #[error("{row} of environment {environment} in the state is {value}; allowed: {allowed}")]
     Value {
@@ -53,18 +60,15 @@ pub enum SnapshotError {
     },
 }
 
-/// Checks everything that a column holds.
+/// Checks everything that a column of this scene holds.
 ///
 /// # Errors
-/// The first number that is not allowed, or another scene.
+/// The first number that is not allowed.
 pub(super) fn check(
     model: &Model,
     environment: usize,
     column: &Column<'_>,
 ) -> Result<(), SnapshotError> {
-    if column.fingerprint() != model.fingerprint {
-        return Err(SnapshotError::Scene);
-    }
     let refuse = |row: String, value: f64, allowed: String| {
         Err(SnapshotError::Value { row, environment, value, allowed })
     };

@@ -10,12 +10,13 @@ pub(super) const WORD: usize = 8;
 pub(super) struct Column<'a> {
     words: &'a [u8],
     rows: usize,
+    magnets: usize,
 }
 
 impl<'a> Column<'a> {
     /// Those of a robot of this model.
     pub(super) fn of(model: &Model, words: &'a [u8]) -> Self {
-        Self { words, rows: state_rows(model) }
+        Self { words, rows: state_rows(model), magnets: model.magnets() }
     }
 
     fn word(&self, place: usize) -> u64 {
@@ -59,7 +60,7 @@ impl<'a> Column<'a> {
     /// Magnets for the next reset: 1 for those that are in.
     pub(super) fn next_present(&self) -> impl Iterator<Item = u64> {
         let first = 3 + self.rows + Model::PARAMETERS.len();
-        (first..self.words.len() / WORD).map(|place| self.word(place))
+        (first..first + self.magnets).map(|place| self.word(place))
     }
 }
 

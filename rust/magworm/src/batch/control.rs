@@ -1,5 +1,7 @@
 //! One control step of a block: actions in, solver steps, what was seen out.
 
+use super::StepOutput;
+use super::cohort::Cohort;
 use crate::actuate::command;
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
@@ -44,40 +46,24 @@ fn progress_m([x, z, heading]: [f64; 3], [next_x, next_z, _]: [f64; 3]) -> f64 {
     (x - next_x) * cos - (z - next_z) * sin
 }
 
-/// Where a control step of one block writes what it saw, one row per environment.
-pub(super) struct ControlRows<'a> {
-    /// Empty where observations are not wanted.
-    pub observation: &'a mut [f32],
-    pub progress_m: &'a mut [f64],
-    pub status: &'a mut [u8],
-}
-
-impl<'a> ControlRows<'a> {
-    pub(super) fn new(
-        ((observation, progress_m), status): ((&'a mut [f32], &'a mut [f64]), &'a mut [u8]),
-    ) -> Self {
-        Self { observation, progress_m, status }
-    }
-}
-
-/// One control step of a block whose first environment is `first`, see [`super::Batch::step`].
+/// One control step of a block, see [`super::Batch::step`]. `actions` are those of all environments, `rows` those of the block
+/// alone.
 pub(super) fn control_block<R: Row>(
-    model: &Model,
-    block: &mut Block<R>,
-    first: usize,
+    cohort: &mut Cohort<R>,
     actions: &[f64],
-    rows: ControlRows<'_>,
+    rows: StepOutput<'_>,
     interruption: &Interruption<'_>,
 ) -> Result<(), Interrupted>
 where
     Block<R>: Steps,
 {
-    let count = rows.status.len();
+    let Cohort { seats, model, block } = cohort;
+    let (model, count) = (&**model, seats.count);
     if model.program.is_controlled() {
         let size = observe::action_size(model);
         for lane in 0..count {
             if block.status[lane] == Status::Running {
-                let action = &actions[size * (first + lane)..][..size];
+                let action = &actions[size * (seats.first + lane)..][..size];
                 command(model, block, lane, action);
             }
         }

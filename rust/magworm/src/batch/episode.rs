@@ -1,10 +1,10 @@
 //! The start of an episode in an environment of a batch.
 
+use super::cohort::Cohort;
 use crate::draws::Draws;
 use crate::lanes::Row;
 use crate::model::Model;
 use crate::reset::{StartPose, reset, scene_start};
-use crate::state::Block;
 
 /// What an environment starts an episode with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,24 +19,19 @@ pub struct Start {
 
 /// What a reset of any environment needs to know.
 pub(super) struct Settings<'a> {
-    pub model: &'a Model,
     pub factors: &'a [f64],
     pub present: &'a [bool],
 }
 
 impl Settings<'_> {
-    pub fn start<R: Row>(
-        &self,
-        block: &mut Block<R>,
-        lane: usize,
-        environment: usize,
-        start: Start,
-    ) {
-        let (parameters, magnets) = (Model::PARAMETERS.len(), self.model.magnets());
+    pub fn start<R: Row>(&self, cohort: &mut Cohort<R>, lane: usize, start: Start) {
+        let Cohort { seats, model, block } = cohort;
+        let (environment, magnets) = (seats.first + lane, model.magnets());
+        let parameters = Model::PARAMETERS.len();
         let factors = &self.factors[environment * parameters..][..parameters];
         let present = &self.present[environment * magnets..][..magnets];
-        let pose = start.pose.unwrap_or_else(|| scene_start(self.model));
+        let pose = start.pose.unwrap_or_else(|| scene_start(model));
         let draws = Draws::new(start.seed, start.episode);
-        reset(self.model, block, lane, pose, factors, present, draws);
+        reset(model, block, lane, pose, factors, present, draws);
     }
 }

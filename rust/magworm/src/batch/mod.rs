@@ -1,9 +1,12 @@
-//! A batch: many environments of one model, stepped together on all cores.
+//! A batch: many environments of one scene or several, stepped together on all cores.
 
 mod blocks;
 mod check;
+mod cohort;
 mod column;
+mod construction;
 mod control;
+mod ensemble;
 mod episode;
 mod pool;
 mod rollout;
@@ -13,6 +16,7 @@ mod wrenches;
 
 pub use check::SnapshotError;
 pub(crate) use control::advance_block;
+pub use ensemble::Ensemble;
 pub use episode::Start;
 pub use pool::Pool;
 pub use rollout::{Plan, RolloutOutput};
@@ -23,9 +27,9 @@ use crate::lanes::{InstructionSet, WIDE, WIDE_SINGLE};
 use crate::model::Model;
 use crate::observe;
 use crate::reset::StartPose;
-use crate::scene::Precision;
-use crate::state::{Block, Counters, Status};
-use blocks::{control_step, each_block, lanes_of, new_blocks, place, place_mut, settle};
+use crate::state::{Counters, Status};
+use blocks::{control_step, each_block, settle};
+use cohort::{Cohort, Seats, place, place_mut};
 use episode::Settings;
 use rollout::rollout;
 use std::sync::Arc;
@@ -40,10 +44,10 @@ pub enum LaneChoice {
     Scalar,
 }
 
-/// Many environments of one model.
+/// Many environments of one scene, or of several of one shape, which change nothing in each other.
 #[derive(Debug)]
 pub struct Batch {
-    model: Arc<Model>,
+    ensemble: Ensemble,
     count: usize,
     blocks: Blocks,
     pool: Pool,
@@ -53,10 +57,10 @@ pub struct Batch {
 
 #[derive(Debug)]
 enum Blocks {
-    Wide(Vec<Block<[f64; WIDE]>>),
-    Scalar(Vec<Block<[f64; 1]>>),
-    WideSingle(Vec<Block<[f32; WIDE_SINGLE]>>),
-    ScalarSingle(Vec<Block<[f32; 1]>>),
+    Wide(Vec<Cohort<[f64; WIDE]>>),
+    Scalar(Vec<Cohort<[f64; 1]>>),
+    WideSingle(Vec<Cohort<[f32; WIDE_SINGLE]>>),
+    ScalarSingle(Vec<Cohort<[f32; 1]>>),
 }
 
 /// Runs `$body` with `$blocks` bound to the blocks of any width and precision.
@@ -71,6 +75,8 @@ macro_rules! with_blocks {
     };
 }
 
+use with_blocks;
+
 /// Entries of a table that one thread writes sooner than many threads are woken.
 const FEW: usize = 1 << 14;
 
@@ -84,64 +90,43 @@ pub struct StepOutput<'a> {
     pub status: &'a mut [u8],
 }
 
+impl<'a> StepOutput<'a> {
+    /// The rows of so many environments, and those of the others.
+    fn split_at(self, environments: usize) -> (Self, Self) {
+        let width = self.observation.len() / self.status.len().max(1);
+        let (observation, other_observation) = self.observation.split_at_mut(width * environments);
+        let (progress_m, other_progress_m) = self.progress_m.split_at_mut(environments);
+        let (status, other_status) = self.status.split_at_mut(environments);
+        (
+            Self { observation, progress_m, status },
+            Self {
+                observation: other_observation,
+                progress_m: other_progress_m,
+                status: other_status,
+            },
+        )
+    }
+}
+
 impl Batch {
-    /// `count` environments at rest in the scene's start pose; each waits for its first
-    /// [`reset`](Self::reset). `threads`: none for one per core.
-    pub fn new(model: Arc<Model>, count: usize, lanes: LaneChoice, threads: Option<usize>) -> Self {
-        let pool = Pool::new(threads);
-        let made = Self::new_unless(&Interruption::never(), model, count, lanes, pool);
-        made.expect("nothing stops it")
-    }
-
-    /// See [`new`](Self::new).
-    ///
-    /// # Errors
-    /// The call was stopped.
-    pub fn new_unless(
-        on: &Interruption<'_>,
-        model: Arc<Model>,
-        count: usize,
-        lanes: LaneChoice,
-        pool: Pool,
-    ) -> Result<Self, Interrupted> {
-        let blocks = match (lanes, model.scene.solver.precision) {
-            (LaneChoice::Wide, Precision::Double) => {
-                Blocks::Wide(new_blocks(&model, count, &pool, on)?)
-            }
-            (LaneChoice::Scalar, Precision::Double) => {
-                Blocks::Scalar(new_blocks(&model, count, &pool, on)?)
-            }
-            (LaneChoice::Wide, Precision::Single) => {
-                Blocks::WideSingle(new_blocks(&model, count, &pool, on)?)
-            }
-            (LaneChoice::Scalar, Precision::Single) => {
-                Blocks::ScalarSingle(new_blocks(&model, count, &pool, on)?)
-            }
-        };
-        let present = model.present();
-        Ok(Self {
-            factors: vec![1.0; count * Model::PARAMETERS.len()],
-            present: present.repeat(count),
-            pool,
-            model,
-            count,
-            blocks,
-        })
-    }
-
-    /// What so many environments take in memory [bytes].
-    pub fn bytes(model: &Arc<Model>, count: usize, lanes: LaneChoice) -> usize {
-        let one = Self::new(Arc::clone(model), 1, lanes, Some(1));
-        let settings = size_of::<f64>() * one.factors.len() + one.present.len();
-        with_blocks!(&one.blocks, blocks => {
-            let blocks_needed = count.div_ceil(lanes_of(blocks));
-            blocks_needed.saturating_mul(blocks[0].bytes()).saturating_add(count.saturating_mul(settings))
-        })
-    }
-
-    /// The model.
+    /// The scene that all environments have, or the first of several: one of their shape.
     pub fn model(&self) -> &Arc<Model> {
-        &self.model
+        self.ensemble.first()
+    }
+
+    /// The scenes.
+    pub fn ensemble(&self) -> &Ensemble {
+        &self.ensemble
+    }
+
+    /// The scene of an environment: its place in the [`ensemble`](Self::ensemble).
+    pub fn scene_of(&self, environment: usize) -> usize {
+        with_blocks!(&self.blocks, blocks => place(blocks, environment).0.seats.scene)
+    }
+
+    /// The compiled scene of an environment.
+    pub fn model_of(&self, environment: usize) -> &Arc<Model> {
+        &self.ensemble.models()[self.scene_of(environment)]
     }
 
     /// Number of environments.
@@ -166,7 +151,7 @@ impl Batch {
     #[doc(hidden)]
     pub fn use_instruction_set(&mut self, set: InstructionSet) {
         with_blocks!(&mut self.blocks, blocks => {
-            blocks.iter_mut().for_each(|block| block.set = set);
+            blocks.iter_mut().for_each(|cohort| cohort.block.set = set);
         });
     }
 
@@ -192,11 +177,11 @@ impl Batch {
 
     /// Starts an episode in one environment. `start`: none for the scene's.
     pub fn reset(&mut self, environment: usize, seed: u64, episode: u64, start: Option<StartPose>) {
-        let Self { model, factors, present, .. } = self;
-        let settings = Settings { model, factors, present };
+        let Self { factors, present, .. } = self;
+        let settings = Settings { factors, present };
         with_blocks!(&mut self.blocks, blocks => {
-            let (block, lane) = place_mut(blocks, environment);
-            settings.start(block, lane, environment, Start { seed, episode, pose: start });
+            let (cohort, lane) = place_mut(blocks, environment);
+            settings.start(cohort, lane, Start { seed, episode, pose: start });
         });
     }
 
@@ -209,15 +194,14 @@ impl Batch {
         interruption: &Interruption<'_>,
         starts: &[Option<Start>],
     ) -> Result<(), Interrupted> {
-        let Self { model, factors, present, pool, .. } = self;
-        let settings = Settings { model, factors, present };
+        let Self { factors, present, pool, .. } = self;
+        let settings = Settings { factors, present };
         with_blocks!(&mut self.blocks, blocks => {
-            let lanes = lanes_of(blocks);
-            each_block(model, pool, interruption, blocks, |index, block| {
-                let first = index * lanes;
-                for (lane, start) in starts[first..].iter().take(lanes).enumerate() {
+            each_block(pool, interruption, blocks, |cohort| {
+                let Seats { first, count, .. } = cohort.seats;
+                for (lane, start) in starts[first..][..count].iter().enumerate() {
                     if let Some(start) = *start {
-                        settings.start(block, lane, first + lane, start);
+                        settings.start(cohort, lane, start);
                     }
                 }
             })
@@ -241,10 +225,10 @@ impl Batch {
         actions: &[f64],
         output: StepOutput<'_>,
     ) -> Result<(), Interrupted> {
-        let (model, pool) = (&*self.model, self.pool.get());
+        let pool = self.pool.get();
         with_blocks!(&mut self.blocks, blocks => {
-            control_step(model, blocks, pool.as_deref(), actions, output, interruption);
-            settle(model, blocks, interruption)
+            control_step(blocks, pool.as_deref(), actions, output, interruption);
+            settle(blocks, interruption)
         })
     }
 
@@ -259,10 +243,10 @@ impl Batch {
         output: RolloutOutput<'_>,
         interruption: &Interruption<'_>,
     ) -> Result<(), Interrupted> {
-        let (model, count, pool) = (&*self.model, self.count, self.pool.get());
+        let (count, pool) = (self.count, self.pool.get());
         with_blocks!(&mut self.blocks, blocks => {
-            rollout(model, blocks, count, pool.as_deref(), plan, output, interruption);
-            settle(model, blocks, interruption)
+            rollout(blocks, count, pool.as_deref(), plan, output, interruption);
+            settle(blocks, interruption)
         })
     }
 
@@ -286,9 +270,8 @@ impl Batch {
         interruption: &Interruption<'_>,
         steps: u32,
     ) -> Result<(), Interrupted> {
-        let model = &*self.model;
         with_blocks!(&mut self.blocks, blocks => {
-            each_block(model, &self.pool, interruption, blocks, |_, block| {
+            each_block(&self.pool, interruption, blocks, |Cohort { model, block, .. }| {
                 // Where it was stopped, the block is put back.
                 let _ = advance_block(model, block, steps, interruption);
             })
@@ -297,7 +280,7 @@ impl Batch {
 
     /// Writes the observations, shape [environments × observation].
     pub fn observe(&self, observation: &mut [f32]) {
-        let width = observe::size(&self.model);
+        let width = observe::size(self.model());
         for (environment, row) in observation.chunks_mut(width).enumerate() {
             self.view(environment, |view| view.observe(row));
         }
@@ -311,15 +294,15 @@ impl Batch {
     /// Looks at one environment.
     pub fn view<R>(&self, environment: usize, look: impl FnOnce(View<'_>) -> R) -> R {
         with_blocks!(&self.blocks, blocks => {
-            let (block, lane) = place(blocks, environment);
-            look(View::new(&self.model, block, lane))
+            let (cohort, lane) = place(blocks, environment);
+            look(View::new(&cohort.model, &cohort.block, lane))
         })
     }
 
     /// Work done by all blocks.
     pub fn counters(&self) -> Counters {
         with_blocks!(&self.blocks, blocks => {
-            blocks.iter().fold(Counters::default(), |sum, block| sum.plus(block.counters))
+            blocks.iter().fold(Counters::default(), |sum, cohort| sum.plus(cohort.block.counters))
         })
     }
 
@@ -343,8 +326,8 @@ impl Batch {
     /// Hands the state of one environment on, see `snapshot.rs`.
     fn write_state(&self, environment: usize, add: &mut dyn FnMut(u64)) {
         with_blocks!(&self.blocks, blocks => {
-            let (block, lane) = place(blocks, environment);
-            snapshot::write_lane(block, lane, add);
+            let (cohort, lane) = place(blocks, environment);
+            snapshot::write_lane(&cohort.block, lane, add);
         });
     }
 
@@ -357,15 +340,12 @@ impl Batch {
         interruption: &Interruption<'_>,
         write: impl Fn(usize, &mut Vec<u8>) + Sync,
     ) -> Result<(), Interrupted> {
-        let Self { model, pool, count, .. } = self;
         with_blocks!(&mut self.blocks, blocks => {
-            let lanes = lanes_of(blocks);
-            each_block(model, pool, interruption, blocks, |index, block| {
+            each_block(&self.pool, interruption, blocks, |Cohort { seats, model, block }| {
                 let mut column = Vec::new();
-                let first = index * lanes;
-                for lane in 0..lanes.min(*count - first) {
+                for lane in 0..seats.count {
                     column.clear();
-                    write(first + lane, &mut column);
+                    write(seats.first + lane, &mut column);
                     snapshot::read_lane(model, block, lane, &column);
                 }
             })

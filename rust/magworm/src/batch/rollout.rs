@@ -3,7 +3,9 @@
 //! Each block runs all its control steps in one task of the pool. So its state stays in the cache of one core, and
 //! threads wait for each other once a call instead of once a control step.
 
-use super::control::{ControlRows, control_block};
+use super::StepOutput;
+use super::cohort::Cohort;
+use super::control::control_block;
 use super::view::View;
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::Row;
@@ -42,7 +44,7 @@ pub struct RolloutOutput<'a> {
 
 /// What belongs to one block and one control step.
 struct Instant<'a> {
-    control: ControlRows<'a>,
+    control: StepOutput<'a>,
     robot_pose: &'a mut [f64],
     magnet_pose: &'a mut [f64],
 }
@@ -56,8 +58,7 @@ impl Plan<'_> {
 
 /// See [`super::Batch::rollout`].
 pub(super) fn rollout<R: Row>(
-    model: &Model,
-    blocks: &mut [Block<R>],
+    cohorts: &mut [Cohort<R>],
     count: usize,
     pool: Option<&ThreadPool>,
     plan: Plan<'_>,
@@ -66,26 +67,22 @@ pub(super) fn rollout<R: Row>(
 ) where
     Block<R>: Steps,
 {
-    let instants = by_block(blocks, count, plan.control_steps, output);
-    let work = |(index, (block, instants)): (usize, (&mut Block<R>, Vec<Instant<'_>>))| {
-        if block.begin(interruption) {
+    let instants = by_block(cohorts, count, plan.control_steps, output);
+    let work = |(cohort, instants): (&mut Cohort<R>, Vec<Instant<'_>>)| {
+        if cohort.block.begin(interruption) {
             // Where it was stopped, the block is put back.
-            let _ = trajectory(model, block, index * R::LANES, plan, instants, interruption);
+            let _ = trajectory(cohort, plan, instants, interruption);
         }
     };
     interruption.run(pool, || match pool {
-        None => blocks.iter_mut().zip(instants).enumerate().for_each(work),
-        Some(_) => {
-            blocks.par_iter_mut().zip(instants.into_par_iter()).enumerate().for_each(work);
-        }
+        None => cohorts.iter_mut().zip(instants).for_each(work),
+        Some(_) => cohorts.par_iter_mut().zip(instants.into_par_iter()).for_each(work),
     });
 }
 
-/// All control steps of a block whose first environment is `first`.
+/// All control steps of a block.
 fn trajectory<R: Row>(
-    model: &Model,
-    block: &mut Block<R>,
-    first: usize,
+    cohort: &mut Cohort<R>,
     plan: Plan<'_>,
     instants: Vec<Instant<'_>>,
     interruption: &Interruption<'_>,
@@ -96,8 +93,8 @@ where
     let per_step = plan.actions.len() / plan.control_steps.max(1);
     for (step, instant) in instants.into_iter().enumerate() {
         let actions = &plan.actions[per_step * step..][..per_step];
-        control_block(model, block, first, actions, instant.control, interruption)?;
-        note_poses(model, block, instant.robot_pose, instant.magnet_pose);
+        control_block(cohort, actions, instant.control, interruption)?;
+        note_poses(&cohort.model, &cohort.block, instant.robot_pose, instant.magnet_pose);
     }
     Ok(())
 }
@@ -125,18 +122,19 @@ fn note_poses<R: Row>(
 
 /// Deals the rows of an output out, `[block][control step]`.
 fn by_block<'a, R: Row>(
-    blocks: &[Block<R>],
+    cohorts: &[Cohort<R>],
     count: usize,
     control_steps: usize,
     mut output: RolloutOutput<'a>,
 ) -> Vec<Vec<Instant<'a>>> {
     let rows = (control_steps * count).max(1);
     let (observed, posed) = (output.observation.len() / rows, output.magnet_pose.len() / rows);
-    let mut dealt: Vec<Vec<_>> = blocks.iter().map(|_| Vec::with_capacity(control_steps)).collect();
+    let mut dealt: Vec<Vec<_>> =
+        cohorts.iter().map(|_| Vec::with_capacity(control_steps)).collect();
     for _ in 0..control_steps {
-        for (index, instants) in dealt.iter_mut().enumerate() {
-            let lanes = R::LANES.min(count - index * R::LANES);
-            let control = ControlRows {
+        for (cohort, instants) in cohorts.iter().zip(&mut dealt) {
+            let lanes = cohort.seats.count;
+            let control = StepOutput {
                 observation: take(&mut output.observation, lanes * observed),
                 progress_m: take(&mut output.progress_m, lanes),
                 status: take(&mut output.status, lanes),

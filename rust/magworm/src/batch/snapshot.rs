@@ -1,16 +1,17 @@
 //! Saving and restoring a batch, bit for bit.
 //!
 //! A snapshot is a list of little-endian words of eight bytes: a header (magic, layout, environments, words per
-//! environment, checksum of all other words) and one column per environment (fingerprint of the scene, rows of the state,
+//! environment, checksum of all other words) and one column per environment (fingerprint of its scene, rows of the state,
 //! solver steps, status, settings of the next reset), so it does not depend on how environments were laid out in lanes.
+//! Where scenes need different numbers of words, the shorter columns end with zeros.
 //! Numbers are `f64`, which hold those of a scene in single precision too.
 //!
 //! The layout is a sum over the declaration of the rows ([`ROWS`]): a row more, one renamed or moved gives another.
 //! A snapshot is checked whole before anything is changed.
 
+use super::Batch;
 use super::check::{SnapshotError, check};
 use super::column::{Column, WORD, column_words, number};
-use super::{Batch, Pool};
 use crate::interruption::{Interrupted, Interruption};
 use crate::lanes::{Number, Row};
 use crate::model::{Model, ROWS, Role, Sum};
@@ -35,7 +36,12 @@ impl Batch {
 
     /// Length of a snapshot [bytes].
     pub fn snapshot_bytes(&self) -> usize {
-        WORD * (HEADER + self.count() * column_words(self.model()))
+        WORD * (HEADER + self.count() * self.words())
+    }
+
+    /// Words per environment: of the scene that needs most.
+    fn words(&self) -> usize {
+        self.ensemble().models().iter().map(|model| column_words(model)).max().unwrap_or(0)
     }
 
     /// Writes a snapshot of just that length.
@@ -47,11 +53,12 @@ impl Batch {
         interruption: &Interruption<'_>,
         out: &mut [u8],
     ) -> Result<(), Interrupted> {
-        let words = column_words(self.model());
+        let words = self.words();
         let (header, columns) = out.split_at_mut(WORD * HEADER);
         self.pool().fill(interruption, columns, WORD * words, |environment, column| {
             let mut bytes = Vec::with_capacity(WORD * words);
             self.write_column(environment, &mut bytes);
+            bytes.resize(WORD * words, 0);
             column.copy_from_slice(&bytes);
         })?;
         let magic = number(MAGIC);
@@ -83,8 +90,7 @@ impl Batch {
         if let Err(error) = self.check(bytes) {
             return Ok(Err(error));
         }
-        let size = WORD * column_words(self.model());
-        let column = |environment: usize| &bytes[WORD * HEADER + size * environment..][..size];
+        let column = |environment| column_of(bytes, environment);
         self.read_columns(interruption, |environment, state| {
             state.extend_from_slice(column(environment));
         })?;
@@ -96,10 +102,13 @@ impl Batch {
     /// Whether a snapshot is one of this batch.
     fn check(&self, bytes: &[u8]) -> Result<(), SnapshotError> {
         self.check_header(bytes)?;
-        let model = &**self.model();
-        let columns = bytes[WORD * HEADER..].chunks(WORD * column_words(model));
-        columns.enumerate().try_for_each(|(environment, column)| {
-            check(model, environment, &Column::of(model, column))
+        (0..self.count()).try_for_each(|environment| {
+            let (model, column) = (self.model_of(environment), column_of(bytes, environment));
+            let another = || SnapshotError::Scene { environment, name: model.scene.name.clone() };
+            let enough = column.len() >= WORD * column_words(model);
+            let column = enough.then(|| Column::of(model, column));
+            let column = column.filter(|column| column.fingerprint() == model.fingerprint);
+            check(model, environment, &column.ok_or_else(another)?)
         })
     }
 
@@ -126,48 +135,14 @@ impl Batch {
         if count != self.count() as u64 {
             return Err(SnapshotError::Count { found: count, expected: self.count() as u64 });
         }
-        if words != column_words(self.model()) as u64 {
-            return Err(SnapshotError::Scene);
-        }
         Ok(())
     }
 
-    /// A batch of its own, as this one in lanes and threads, whose environment k is a copy of `environments[k]`: its
-    /// state and its settings for the next reset, bit for bit.
-    pub fn copies(&self, environments: &[usize]) -> Self {
-        let copied = self.copies_unless(&Interruption::never(), environments);
-        copied.expect("nothing stops it")
-    }
-
-    /// See [`copies`](Self::copies).
-    ///
-    /// # Errors
-    /// The call was stopped.
-    pub fn copies_unless(
-        &self,
-        interruption: &Interruption<'_>,
-        environments: &[usize],
-    ) -> Result<Self, Interrupted> {
-        let (model, count) = (Arc::clone(self.model()), environments.len());
-        let (lanes, pool) = (self.lanes(), Pool::new(Some(self.threads())));
-        let mut batch = Self::new_unless(interruption, model, count, lanes, pool)?;
-        batch.read_columns(interruption, |copy, state| {
-            self.write_column(environments[copy], state);
-        })?;
-        let mut column = Vec::new();
-        for (copy, &environment) in environments.iter().enumerate() {
-            column.clear();
-            self.write_column(environment, &mut column);
-            batch.read_settings(copy, &column);
-        }
-        Ok(batch)
-    }
-
     /// Everything of one environment.
-    fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
+    pub(super) fn write_column(&self, environment: usize, out: &mut Vec<u8>) {
         let (parameters, magnets) = (Model::PARAMETERS.len(), self.model().magnets());
         let mut add = |word: u64| out.extend(word.to_le_bytes());
-        add(self.model().fingerprint);
+        add(self.model_of(environment).fingerprint);
         self.write_state(environment, &mut add);
         let factors = &self.factors()[environment * parameters..][..parameters];
         factors.iter().for_each(|factor| add(factor.to_bits()));
@@ -176,9 +151,9 @@ impl Batch {
     }
 
     /// Takes factors and magnets for the next reset over from a column.
-    fn read_settings(&mut self, environment: usize, column: &[u8]) {
+    pub(super) fn read_settings(&mut self, environment: usize, column: &[u8]) {
         let (parameters, magnets) = (Model::PARAMETERS.len(), self.model().magnets());
-        let model = Arc::clone(self.model());
+        let model = Arc::clone(self.model_of(environment));
         let column = Column::of(&model, column);
         let factors = &mut self.factors_mut()[environment * parameters..][..parameters];
         factors.iter_mut().zip(column.next_factors()).for_each(|(factor, next)| *factor = next);
@@ -221,6 +196,13 @@ fn layout() -> u64 {
 fn layout_name(magic: &[u8], layout: u64) -> String {
     let name = String::from_utf8_lossy(magic).escape_default().to_string();
     if magic == b"MAGWORM1" { name } else { format!("{name}-{layout:016x}") }
+}
+
+/// The column of an environment in a snapshot whose header fits.
+fn column_of(bytes: &[u8], environment: usize) -> &[u8] {
+    let (header, columns) = bytes.split_at(WORD * HEADER);
+    let size = columns.len() / (number(&header[2 * WORD..]) as usize).max(1);
+    &columns[size * environment..][..size]
 }
 
 /// A sum over all words but its own.

@@ -8,7 +8,7 @@ mod record;
 pub use record::Record;
 
 use magworm::internals::Draws;
-use magworm::{Batch, LaneChoice, Model, StartPose, StepOutput};
+use magworm::{Batch, Ensemble, LaneChoice, Model, StartPose, StepOutput};
 use std::sync::Arc;
 
 /// Control step in which some robots fare ill.
@@ -30,14 +30,25 @@ pub struct World {
 impl World {
     /// The robots of these numbers, side by side, each at its start.
     pub fn new(model: &Arc<Model>, robots: &[u64], lanes: LaneChoice, threads: usize) -> Self {
+        Self::of(Arc::clone(model), robots, lanes, threads)
+    }
+
+    /// The same, of several scenes.
+    pub fn of(
+        scenes: impl Into<Ensemble>,
+        robots: &[u64],
+        lanes: LaneChoice,
+        threads: usize,
+    ) -> Self {
         let count = robots.len();
+        let batch = Batch::new(scenes, count, lanes, Some(threads));
         let mut world = Self {
-            batch: Batch::new(Arc::clone(model), count, lanes, Some(threads)),
             robots: robots.to_vec(),
             control_steps: 0,
-            observation: vec![0.0; count * magworm::observe::size(model)],
+            observation: vec![0.0; count * magworm::observe::size(batch.model())],
             progress_m: vec![0.0; count],
             status: vec![0; count],
+            batch,
         };
         (0..count).for_each(|place| world.start(place, 0));
         world
@@ -70,8 +81,8 @@ impl World {
         record.add_f32("observation", &self.observation[place * width..][..width]);
         record.add("progress", &[self.progress_m[place]]);
         record.add("status", &[f64::from(self.status[place])]);
-        let contacts = self.batch.model().contacts.len();
-        self.batch.view(place, |view| record.look(&view, self.batch.model(), contacts));
+        let model = self.batch.model_of(place);
+        self.batch.view(place, |view| record.look(&view, model, model.contacts.len()));
         record
     }
 
