@@ -54,6 +54,14 @@ pub enum Problem {
     /// Text that is not TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
+    /// An ensemble that does not exist.
+    #[error("there is no ensemble \"{name}\"; ensembles: {known}")]
+    Ensemble {
+        /// The name asked for.
+        name: String,
+        /// Names of the ensembles.
+        known: String,
+    },
     /// A preset that does not exist.
     #[error("there is no preset \"{name}\"; presets: {known}")]
     Preset {
@@ -72,7 +80,7 @@ impl Problem {
             | Self::Missing { field, .. }
             | Self::Unknown { field, .. }
             | Self::Needed { field, .. } => Some(field),
-            Self::Syntax(_) | Self::Preset { .. } => None,
+            Self::Syntax(_) | Self::Ensemble { .. } | Self::Preset { .. } => None,
         }
     }
 }

@@ -18,6 +18,7 @@ mod contact_point;
 mod direction;
 mod drive;
 mod edit;
+mod ensemble;
 mod error;
 mod fields;
 mod lines;
