@@ -54,6 +54,10 @@ class Scene:
     @staticmethod
     def preset(name: str) -> Scene:
         """One of PRESETS. Raises SceneError."""
+    @staticmethod
+    def ensemble(name: str) -> list[Scene]:
+        """Robots of one shape that fit the same measurements; a batch takes all of them. Raises SceneError,
+        which tells the names that exist."""
     def with_values(self, values: Mapping[str, Any]) -> Scene:
         """A copy with fields replaced, by dotted path: {"ground.static_friction": 0.9}, or
         {"body.segment[2].thickness_m": 0.006} in a list, counted from 0. A mapping replaces a whole
@@ -127,15 +131,32 @@ class Specification:
 
 @final
 class Batch:
-    """N environments of one scene, advanced together."""
+    """N environments of one scene, or of several, advanced together."""
 
     def __new__(
-        cls, scene: Scene, num_envs: int, *, lanes: str = "wide", threads: int | None = None
+        cls,
+        scene: Scene | Sequence[Scene],
+        num_envs: int,
+        *,
+        lanes: str = "wide",
+        threads: int | None = None,
     ) -> Batch:
         """lanes: "wide" (8, single precision 16) or "scalar"; equal bits. threads: None: all. Raises
-        MemoryError for more environments than there is memory for."""
+        MemoryError for more environments than there is memory for.
+
+        A list of S scenes gives environment i the scene i S // N; each is bit for bit what it is in a
+        batch of its scene alone. Scenes must have one shape: dimensions, precision, solver step,
+        control step and episode, numbers of magnets, nodes and drive magnets, parts of actions and
+        observations with their units; all else may differ. Raises SceneError, which names what does not
+        fit. Lanes stand idle in the last block of a scene whose share of N is no multiple of them."""
     @property
-    def scene(self) -> Scene: ...
+    def scene(self) -> Scene:
+        """The first of scenes, whose shape all have."""
+    @property
+    def scenes(self) -> tuple[Scene, ...]: ...
+    @property
+    def scene_indices(self) -> NDArray[np.int64]:
+        """(N,): which of scenes each environment has."""
     @property
     def num_envs(self) -> int: ...
     @property
@@ -209,7 +230,7 @@ class Batch:
     def get_state(self) -> bytes:
         """Everything that changes in time, bit for bit."""
     def set_state(self, state: bytes) -> None:
-        """Raises ValueError for a state of another scene or size; nothing is changed then."""
+        """Raises ValueError for a state of other scenes or another size; nothing is changed then."""
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
@@ -232,7 +253,9 @@ class Trajectories:
     def observations(self) -> NDArray[np.float32] | None:
         """(T, N, O): as Batch.step gives them; None where they were not asked for."""
 
-def _rebuild_batch(scene: Scene, num_envs: int, lanes: str, threads: int | None, state: bytes) -> Batch:
+def _rebuild_batch(
+    scenes: Sequence[Scene], scene_indices: ArrayLike, lanes: str, threads: int | None, state: bytes
+) -> Batch:
     """Makes a batch again from what Batch.__reduce__ kept."""
 
 def atan2(y: ArrayLike, x: ArrayLike) -> NDArray[np.float64]:

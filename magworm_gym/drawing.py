@@ -40,8 +40,9 @@ class Drawing:
 
         self._batch = batch
         self._task = task
+        scenes, indices = batch.scenes, batch.scene_indices
         self._views: dict[int, SideView | SpaceView] = {
-            i: view_of(batch.scene, WIDTH_PX, HEIGHT_PX) for i in chosen
+            i: view_of(scenes[indices[i]], WIDTH_PX, HEIGHT_PX) for i in chosen
         }
         self._trails: dict[int, list[NDArray[np.float64]]] = {i: [] for i in chosen}
         self._shown_s = 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from os import PathLike
 from typing import Any
 
 import gymnasium
@@ -17,6 +16,7 @@ from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.drawing import Frame
 from magworm_gym.infos import Infos, info_of
 from magworm_gym.rollout import Rollout
+from magworm_gym.scene import AnyScene
 from magworm_gym.vector_env import RENDER_MODES, MagWormVectorEnv, Observations
 
 
@@ -49,7 +49,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
 
     def __init__(
         self,
-        scene: str | PathLike[str] | Scene | None = None,
+        scene: AnyScene | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         lanes: str = "scalar",

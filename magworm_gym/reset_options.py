@@ -175,6 +175,14 @@ def _factors(value: Any, num_envs: int, names: Sequence[str]) -> dict[str, NDArr
     }
 
 
+def _of_scenes(batch: Batch) -> NDArray[np.bool_]:
+    """The magnets that the scene of each environment has (N, M)."""
+    present = np.ones((len(batch.scenes), batch.scene.magnets), np.bool_)
+    for row, scene in zip(present, batch.scenes, strict=True):
+        row[list(scene.removed)] = False
+    return present[batch.scene_indices]
+
+
 @contextmanager
 def equipped(batch: Batch, request: ResetOptions) -> Iterator[None]:
     """Gives the environments of a reset their robots; takes them back where the block is stopped or raises.
@@ -182,12 +190,10 @@ def equipped(batch: Batch, request: ResetOptions) -> Iterator[None]:
     Raises:
         ValueError: A robot that cannot be simulated.
     """
-    mask, scene = request.mask, batch.scene
+    mask = request.mask
     before = {name: batch.parameter(name) for name in batch.parameter_names}
     present_before = batch.magnets_present()
-    present = np.ones(scene.magnets, np.bool_)
-    present[list(scene.removed)] = False
-    wanted = present if request.present is None else request.present
+    wanted = _of_scenes(batch) if request.present is None else request.present
     try:
         for name, factors in before.items():
             batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))

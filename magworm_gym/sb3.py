@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from os import PathLike
 from typing import Any
 
 import gymnasium
@@ -18,9 +17,9 @@ from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
 
 from magworm_gym import snapshot
-from magworm_gym._magworm import Scene
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.infos import Infos, info_of
+from magworm_gym.scene import AnyScenes
 from magworm_gym.vector_env import MagWormVectorEnv, Observations
 
 
@@ -41,7 +40,8 @@ class MagWormVecEnv(VecEnv):
 
     Args:
         num_envs: Number of environments N.
-        scene: Preset, path of a TOML file, or scene; None takes the task's.
+        scene: Preset, path of a TOML file, or scene; None takes the task's. Or a list of scenes of one
+            shape: environment i of N has scene i S // N of S.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None, "rgb_array" or "human".
         render_envs: Environments to draw.
@@ -57,7 +57,7 @@ class MagWormVecEnv(VecEnv):
     def __init__(
         self,
         num_envs: int = 1,
-        scene: str | PathLike[str] | Scene | None = None,
+        scene: AnyScenes | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         render_envs: Sequence[int] = (0,),

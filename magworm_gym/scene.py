@@ -1,13 +1,31 @@
 """Finding a scene."""
 
+from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
+from typing import TypeAlias
 
 from magworm_gym._magworm import PRESETS, Scene, SceneError
 from magworm_gym.arguments import shown
 
+AnyScene: TypeAlias = str | PathLike[str] | Scene
+"""Name of a preset, path of a TOML file, or a scene."""
+AnyScenes: TypeAlias = AnyScene | Sequence[AnyScene]
+"""One of them, or a list of several of one shape."""
 
-def load_scene(scene: str | PathLike[str] | Scene) -> Scene:
+
+def load_scenes(scenes: AnyScenes) -> list[Scene]:
+    """Returns validated scenes, see :func:`load_scene`, from one or a list.
+
+    Raises:
+        SceneError: One of them cannot be found or simulated.
+    """
+    if isinstance(scenes, Sequence) and not isinstance(scenes, str):
+        return [load_scene(scene) for scene in scenes]
+    return [load_scene(scenes)]
+
+
+def load_scene(scene: AnyScene) -> Scene:
     """Returns a validated scene.
 
     Args:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,7 @@ from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import judged, step_infos
 from magworm_gym.reset_options import equipped, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
-from magworm_gym.scene import load_scene
+from magworm_gym.scene import AnyScenes, load_scenes
 from magworm_gym.spaces import AnyPart, box, layout
 from magworm_gym.state import State
 from magworm_gym.tasks import Task, task_named
@@ -72,7 +71,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     Args:
         num_envs: Number of environments N.
         scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the
-            task's: ``paper-3`` in the plane for "crawl", ``turn-3`` in space for the others.
+            task's: ``paper-3`` in the plane for "crawl", ``turn-3`` in space for the others. A list of S
+            scenes of one shape gives environment i the scene i S // N, see :attr:`scenes`.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None; "rgb_array": :meth:`render` returns frames; "human": a window follows
             each reset and step.
@@ -95,7 +95,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     def __init__(
         self,
         num_envs: int = 1,
-        scene: str | PathLike[str] | Scene | None = None,
+        scene: AnyScenes | None = None,
         max_episode_steps: int | None = None,
         render_mode: str | None = None,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
@@ -105,34 +105,36 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         task: str = "crawl",
     ) -> None:
         kind = task_named(task)
-        scene = load_scene(kind.default_scene if scene is None else scene)
-        if not scene.controlled:
-            raise ValueError(
-                f"scene {scene.name!r} has no drive that follows actions (drive.motion 'controlled')"
-            )
+        scenes = load_scenes(kind.default_scene if scene is None else scene)
+        for one in scenes:
+            if not one.controlled:
+                raise ValueError(
+                    f"scene {one.name!r} has no drive that follows actions (drive.motion 'controlled')"
+                )
         self.num_envs = positive("num_envs", num_envs)
         self.render_mode = choice("render_mode", render_mode, (None, *RENDER_MODES))
         self._autoreset = AutoresetMode(autoreset_mode)
         self._render_envs = indices("render_envs", render_envs, self.num_envs)
-        self._batch = Batch(scene, self.num_envs, lanes=lanes, threads=threads)
+        self._batch = Batch(scenes, self.num_envs, lanes=lanes, threads=threads)
+        first = self._batch.scene
         self.metadata = {
             "render_modes": list(RENDER_MODES),
-            "render_fps": round(1.0 / scene.control_step_s),
+            "render_fps": round(1.0 / first.control_step_s),
             "autoreset_mode": self._autoreset,
         }
-        of_scene = round(scene.episode_s / scene.control_step_s)
+        of_scene = round(first.episode_s / first.control_step_s)
         limit = of_scene if max_episode_steps is None else max_episode_steps
         self._max_episode_steps = positive("max_episode_steps", limit)
 
         observed = self._batch.observation_specification
-        self._task = kind(scene, observed, self.num_envs)
+        self._task = kind(first, observed, self.num_envs)
         self.single_observation_space = box(self.observation_specification)
         self.single_action_space = box(self._batch.action_specification)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._action_shape = (self.num_envs, sum(part.size for part in self._batch.action_specification))
 
-        columns, goal = len(start_limits(scene.dimensions)), self._task.goal_option
+        columns, goal = len(start_limits(first.dimensions)), self._task.goal_option
         self._episodes = Episodes.before_the_first(self.num_envs, columns, 0 if goal is None else goal.size)
 
     @property
@@ -142,8 +144,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     @property
     def scene(self) -> Scene:
-        """The scene of every environment."""
+        """The scene of every environment; the first of several, whose shape all have."""
         return self._batch.scene
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        """The scenes; ``batch.scene_indices`` (N,) says which of them each environment has."""
+        return self._batch.scenes
 
     @property
     def max_episode_steps(self) -> int:

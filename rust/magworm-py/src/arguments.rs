@@ -1,9 +1,11 @@
 //! Arguments from Python: each is taken where nothing is lost, or refused by name with what is allowed.
 
-use crate::errors::value_error;
+use crate::errors::{scene_error, value_error};
 use crate::scene::Scene;
+use magworm::{Ensemble, LaneChoice};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
@@ -49,6 +51,11 @@ pub fn threads(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<usize>> {
     value.map(|value| whole("threads", value, THREADS)).transpose()
 }
 
+/// How environments are laid out.
+pub fn lanes(value: Option<&Bound<'_, PyAny>>) -> PyResult<LaneChoice> {
+    word("lanes", value, [("wide", LaneChoice::Wide), ("scalar", LaneChoice::Scalar)])
+}
+
 /// A number.
 pub fn number(name: &str, value: &Bound<'_, PyAny>, allowed: &str) -> PyResult<f64> {
     value.extract().map_err(|_| type_error(name, value, allowed))
@@ -85,6 +92,22 @@ pub fn word<T: Copy, const N: usize>(
 /// Bytes.
 pub fn bytes<'a>(name: &str, value: &'a Bound<'_, PyAny>) -> PyResult<Cow<'a, [u8]>> {
     value.extract().map_err(|_| type_error(name, value, "bytes, such as get_state returns"))
+}
+
+/// Scenes of one shape: one, or a list of some.
+pub fn ensemble(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Ensemble> {
+    if let Ok(one) = value.cast::<Scene>() {
+        return Ok(one.get().model.clone().into());
+    }
+    let allowed = "a Scene, such as load_scene returns, or a list of scenes";
+    // A text is iterable, too.
+    let items = value.try_iter().ok().filter(|_| !value.is_instance_of::<PyString>());
+    let items = items.ok_or_else(|| type_error(name, value, allowed))?;
+    let model = |(k, item): (usize, PyResult<Bound<'_, PyAny>>)| {
+        Ok(scene(&format!("{name}[{k}]"), &item?)?.get().model.clone())
+    };
+    let models = items.enumerate().map(model).collect::<PyResult<_>>()?;
+    Ensemble::new(models).map_err(|error| scene_error(value.py(), &error))
 }
 
 /// A scene.

@@ -1,6 +1,6 @@
 //! `Batch` for Python.
 
-use crate::arguments::{self, bytes, number, whole, word};
+use crate::arguments::{self, bytes, ensemble, number, whole};
 use crate::arrays::{indices, read, shaped};
 use crate::errors::{in_use, value_error};
 use crate::interruption::interruptible;
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::specification::specifications;
 use crate::start::starts;
 use magworm::internals::Pool;
-use magworm::{LaneChoice, Model, Status, StepOutput, View, observe};
+use magworm::{Ensemble, LaneChoice, Model, Status, StepOutput, View, observe};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
@@ -20,9 +20,11 @@ use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
 /// Most environments of a batch.
 const MAX_ENVIRONMENTS: usize = 1 << 24;
 
-/// N environments of one scene, advanced together.
+/// N environments of one scene or several, advanced together.
 #[pyclass(module = "magworm_gym._magworm", frozen)]
 pub struct Batch {
+    ensemble: Ensemble,
+    /// The first scene, whose shape all have.
     model: Arc<Model>,
     count: usize,
     lanes: LaneChoice,
@@ -48,25 +50,43 @@ impl Batch {
         lanes: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let model = arguments::scene("scene", scene)?.get().model.clone();
+        let ensemble = ensemble("scene", scene)?;
         let count = whole("num_envs", num_envs, 1..=MAX_ENVIRONMENTS)?;
-        let names = [("wide", LaneChoice::Wide), ("scalar", LaneChoice::Scalar)];
-        let (lanes, threads) = (word("lanes", lanes, names)?, arguments::threads(threads)?);
+        let scenes = ensemble.models().len();
+        if count < scenes {
+            let allowed = format!("{scenes} or more, one for each scene");
+            return Err(value_error(format!("num_envs is {count}; allowed: {allowed}")));
+        }
+        let (lanes, threads) = (arguments::lanes(lanes)?, arguments::threads(threads)?);
         // First of all, so that what threads take is gone when the room is measured.
         let pool = scene.py().detach(|| Pool::started(threads));
         check_room(
             &format!("num_envs is {count}, which"),
-            magworm::Batch::bytes(&model, count, lanes),
+            magworm::Batch::bytes(&ensemble, count, lanes),
         )?;
         let batch = interruptible(scene.py(), |interruption| {
-            magworm::Batch::new_unless(interruption, model.clone(), count, lanes, pool)
+            magworm::Batch::new_unless(interruption, ensemble, count, lanes, pool)
         })?;
-        Ok(Self { model, count, lanes, threads, batch: RwLock::new(batch) })
+        Ok(Self::around(batch, threads))
     }
 
     #[getter]
     fn scene(&self) -> Scene {
         Scene { model: self.model.clone() }
+    }
+
+    #[getter]
+    fn scenes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let models = self.ensemble.models().iter();
+        PyTuple::new(py, models.map(|model| Scene { model: model.clone() }))
+    }
+
+    #[getter]
+    fn scene_indices<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py, i64>> {
+        let batch = self.reading()?;
+        let mut indices = memory::reserved("scene_indices", self.count)?;
+        indices.extend((0..self.count).map(|environment| batch.scene_of(environment) as i64));
+        Ok(indices.into_pyarray(py))
     }
 
     #[getter]
@@ -180,17 +200,14 @@ impl Batch {
 
     fn copies(&self, environments: &Bound<'_, PyAny>) -> PyResult<Self> {
         let chosen = self.environments(environments)?;
-        let (model, count) = (self.model.clone(), chosen.len());
-        check_room(
-            &format!("environments names {count}, whose copies"),
-            magworm::Batch::bytes(&model, count, self.lanes),
-        )?;
         let batch = self.reading()?;
         let batch = &*batch;
+        let what = format!("environments names {}, whose copies", chosen.len());
+        check_room(&what, batch.copies_bytes(&chosen))?;
         let copies = interruptible(environments.py(), |interruption| {
             batch.copies_unless(interruption, &chosen)
         })?;
-        Ok(Self { model, count, batch: RwLock::new(copies), ..*self })
+        Ok(Self::around(copies, self.threads))
     }
 
     fn advance(&self, duration_s: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -298,7 +315,7 @@ impl Batch {
         })
     }
 
-    fn set_state(&self, state: &Bound<'_, PyAny>) -> PyResult<()> {
+    pub(crate) fn set_state(&self, state: &Bound<'_, PyAny>) -> PyResult<()> {
         let bytes = bytes("state", state)?;
         let mut batch = self.writing()?;
         let batch = &mut *batch;
@@ -308,19 +325,25 @@ impl Batch {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let module = py.import("magworm_gym._magworm")?;
-        let rebuild = module.getattr("_rebuild_batch")?;
+        let rebuild = py.import("magworm_gym._magworm")?.getattr("_rebuild_batch")?;
         let lanes = match self.lanes {
             LaneChoice::Wide => "wide",
             LaneChoice::Scalar => "scalar",
         };
-        let scene = self.scene().into_pyobject(py)?;
-        let arguments = (scene, self.count, lanes, self.threads, self.get_state(py)?);
+        let (scenes, indices) = (self.scenes(py)?, self.scene_indices(py)?);
+        let arguments = (scenes, indices, lanes, self.threads, self.get_state(py)?);
         (rebuild, arguments).into_pyobject(py).map(Bound::into_any)
     }
 }
 
 impl Batch {
+    /// A batch that was made for so many threads.
+    pub(crate) fn around(batch: magworm::Batch, threads: Option<usize>) -> Self {
+        let (ensemble, model) = (batch.ensemble().clone(), batch.model().clone());
+        let (count, lanes) = (batch.count(), batch.lanes());
+        Self { ensemble, model, count, lanes, threads, batch: RwLock::new(batch) }
+    }
+
     fn reading(&self) -> PyResult<RwLockReadGuard<'_, magworm::Batch>> {
         self.batch.try_read().map_err(|error| in_use("this batch", &error))
     }
@@ -374,19 +397,4 @@ impl Batch {
         };
         indices.iter().enumerate().map(inside).collect()
     }
-}
-
-/// Makes a batch again from what `Batch.__reduce__` kept.
-#[pyfunction]
-#[pyo3(signature = (scene, num_envs, lanes, threads, state))]
-pub fn _rebuild_batch(
-    scene: &Bound<'_, PyAny>,
-    num_envs: &Bound<'_, PyAny>,
-    lanes: &Bound<'_, PyAny>,
-    threads: Option<&Bound<'_, PyAny>>,
-    state: &Bound<'_, PyAny>,
-) -> PyResult<Batch> {
-    let batch = Batch::new(scene, num_envs, Some(lanes), threads)?;
-    batch.set_state(state)?;
-    Ok(batch)
 }

@@ -11,6 +11,7 @@ mod interruption;
 mod magnet;
 mod memory;
 mod parameters;
+mod rebuild;
 mod record;
 mod rollout;
 mod scene;
@@ -26,13 +27,15 @@ mod _magworm {
     #[pymodule_export]
     use crate::angles::{atan2, sin_cos};
     #[pymodule_export]
-    use crate::batch::{_rebuild_batch, Batch};
+    use crate::batch::Batch;
     #[pymodule_export]
     use crate::errors::SceneError;
     #[pymodule_export]
     use crate::interruption::_stops_cleanly;
     #[pymodule_export]
     use crate::magnet::{cuboid_field, cuboid_wrench};
+    #[pymodule_export]
+    use crate::rebuild::_rebuild_batch;
     #[pymodule_export]
     use crate::record::record_scenes;
     #[pymodule_export]

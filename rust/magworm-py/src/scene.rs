@@ -44,6 +44,14 @@ impl Scene {
         Self::compiled(name.py(), scene::Scene::preset(&given))
     }
 
+    #[staticmethod]
+    fn ensemble(name: &Bound<'_, PyAny>) -> PyResult<Vec<Self>> {
+        let given = text("name", name, "the name of an ensemble")?;
+        let scenes =
+            scene::Scene::ensemble(&given).map_err(|error| scene_error(name.py(), &error))?;
+        scenes.into_iter().map(|scene| Self::compiled(name.py(), Ok(scene))).collect()
+    }
+
     fn with_values(&self, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         Self::compiled(values.py(), self.inner().with_values(&changes(values)?))
     }
