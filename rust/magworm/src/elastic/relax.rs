@@ -32,6 +32,9 @@ impl<'a, I: Isa> Dashpots<'a, I> {
     /// The strain that acts in a way to strain, counted from 0; its dashpots flow.
     #[inline(always)]
     pub(super) fn act(&mut self, way: usize, strain: I::F) -> I::F {
+        if self.branches.is_empty() {
+            return strain;
+        }
         let count = self.branches.len();
         let rows = &mut self.strains[way * count..][..count];
         let mut acting = strain;
