@@ -47,10 +47,14 @@ pins! { SCENES, keeps_its_bits:
     incline_in_space
     multipliers
     multipliers_in_space
+    relaxing_rubber
+    relaxing_rubber_in_space
     rolled_up
     single_precision
     single_precision_in_space
     steps_of_half_a_millisecond
+    suspended_drive
+    suspended_drive_in_space
     three_magnets
     three_magnets_in_space
     turn
