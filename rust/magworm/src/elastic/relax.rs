@@ -36,9 +36,6 @@ impl<'a, I: Isa> Dashpots<'a, I> {
             return strain;
         }
         let count = self.branches.len();
-        if count == 0 {
-            return strain;
-        }
         let rows = &mut self.strains[way * count..][..count];
         let mut acting = strain;
         for (branch, row) in self.branches.iter().zip(rows) {
