@@ -363,6 +363,8 @@ mod tests {
         let pair = "{ kind = \"pair\", spacing_m = 0.05, second_polarity = 1 }";
         let points = "{ kind = \"waypoints\", time_s = [0], x_m = [0], y_m = [0] }";
         let bent = "{ bends_deg = [9], bends_aside_deg = [9], twists_deg = [9] }";
+        let relaxation = "[{ ratio = 0.3, time_s = 0.08 }]";
+        let suspension = "{ mass_kg = 0.1, stiffness_n_m = 500, damping_n_s_m = 1 }";
         let rod =
             "{ kind = \"rod\", length_m = 1, width_m = 0.1, thickness_m = 0.01, elements = 9 }";
         for (preset, path, value) in [
@@ -376,6 +378,8 @@ mod tests {
                 ("dimensions", "3"),
                 ("field", "{ x_t = 0, y_t = 0 }"),
                 ("start", bent),
+                ("material.relaxation", relaxation),
+                ("drive.suspension", suspension),
                 (path, value),
             ]
             .map(|(path, value)| (path.into(), Some(value.parse().expect("TOML"))));
