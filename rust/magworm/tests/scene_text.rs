@@ -99,7 +99,7 @@ fn unknown_fields_are_refused_everywhere() {
     for (path, rest) in [
         (
             "colour",
-            "the scene has: name, gravity_m_s2, dimensions, body, material, magnet, ground, drive, field, magnetic_terms, start, solver, control, reset",
+            "the scene has: name, gravity_m_s2, dimensions, body, material, magnet, ground, contact, drive, field, magnetic_terms, start, solver, control, reset",
         ),
         (
             "body.colour",

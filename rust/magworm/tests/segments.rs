@@ -145,7 +145,7 @@ fn paths_into_lists_are_refused_in_a_sentence() {
         (
             "body[1].kind",
             Some("'rod'"),
-            "body[1] is not a field of a scene; the scene has: name, gravity_m_s2, dimensions, body, material, magnet, ground, drive, field, magnetic_terms, start, solver, control, reset",
+            "body[1] is not a field of a scene; the scene has: name, gravity_m_s2, dimensions, body, material, magnet, ground, contact, drive, field, magnetic_terms, start, solver, control, reset",
         ),
     ] {
         assert_eq!(mixed(path, value).expect_err(path), sentence);

@@ -1,8 +1,12 @@
 //! Contact points at the start of a step: lever arm r, gap φ, velocity bias û, and whether they are active.
 //!
 //! ```text
-//! û = (φ/τ) n + ½ Δt ω × (ω × r)      φ/Δt above the surface
+//! û = (φ/τ) n + ½ Δt ω × (ω × c)      φ/Δt above the surface
+//! r = c − R n
 //! ```
+//!
+//! A rounded corner is a ball of radius R [m] about c, whose lowest point touches; R is 0 where it is sharp. On its arc goes
+//! the centre of the ball: the lowest point stays below it however the body turns, so a ball rolls.
 
 use super::jacobian::{arc_velocity, point_velocity};
 use super::law::ContactLaw;
@@ -37,14 +41,21 @@ fn detect_point<D: Dim, I: Isa>(
     pair: &ContactPair,
     step_s: f64,
 ) {
-    let (arm, place) = arm_and_place::<D, I>(isa, block, pair);
+    let (centre, place) = arm_and_place::<D, I>(isa, block, pair);
+    let (mut gap, frame) = surface::evaluate::<D, I::F>(pair.surface, place);
+    let mut arm = centre;
+    if pair.point.radius_m > 0.0 {
+        let radius = isa.splat(pair.point.radius_m);
+        let none = D::Tangent::splat(isa.splat(0.0));
+        gap = gap - radius;
+        arm = arm - frame.vector(ContactVector::<D, I::F>::new(radius, none));
+    }
     arm.store(isa, &mut block.contact.arm[D::AXES * c..]);
-    let (gap, frame) = surface::evaluate::<D, I::F>(pair.surface, place);
     let inside = gap.lt(isa.splat(0.0));
     let time_s = I::F::select(inside, law.dissipation_time_s, isa.splat(step_s));
     let approach = (gap / time_s).max(isa.splat(-MAX_CORRECTIVE_SPEED_M_S));
     let (first, rigid) = (pair.dof, pair.rigid);
-    let arc = arc_velocity::<D, I>(isa, &block.v, first, rigid, arm, step_s);
+    let arc = arc_velocity::<D, I>(isa, &block.v, first, rigid, centre, step_s);
     let mut bias: ContactVector<D, I::F> = frame.components(arc);
     bias.normal = bias.normal + approach;
     let velocity = point_velocity::<D, I>(isa, &block.v, first, rigid, arm);

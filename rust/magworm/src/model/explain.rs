@@ -71,13 +71,21 @@ impl Model {
     fn explain_ground(&self) -> String {
         match &self.program.contact {
             Some(law) => format!(
-                "{} contact points that {} of the unknowns move, static friction {}, dynamic {}",
+                "{} contact points{} that {} of the unknowns move, static friction {}, dynamic {}",
                 self.contacts.len(),
+                self.explain_edges(),
                 self.system.unknowns().len(),
                 law.static_friction,
                 law.dynamic_friction
             ),
             None => "left out: the scene has no [ground]".to_string(),
+        }
+    }
+
+    fn explain_edges(&self) -> String {
+        match self.scene.contact.edge_radius_m {
+            0.0 => String::new(),
+            radius_m => format!(" on edges rounded by {radius_m} m"),
         }
     }
 

@@ -85,7 +85,8 @@ fn straight_drop_m(model: &Model, angle_rad: f64) -> f64 {
             Frame::World => None,
             Frame::Body(body) => {
                 let element = model.bodies[body].element;
-                Some(-up_m * cos - (0.5 * (arc[element] + arc[element + 1]) + along_m) * sin)
+                let along_m = 0.5 * (arc[element] + arc[element + 1]) + along_m;
+                Some(-up_m * cos - along_m * sin + point.radius_m)
             }
             Frame::Node(node) => Some(-up_m - arc[node] * sin),
         }
@@ -135,7 +136,7 @@ impl<'a> Bent<'a> {
                 let element = model.bodies[body].element;
                 let (t, u) = (self.tangent(element), self.up(element));
                 let arm = t * along_m + u * up_m + t.cross(&u) * side_m;
-                Some((self.middle(element) + arm).y)
+                Some((self.middle(element) + arm).y - point.radius_m)
             }
             Frame::Node(node) => Some(self.node(node).y + up_m),
         }

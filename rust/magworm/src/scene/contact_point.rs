@@ -22,4 +22,6 @@ pub struct ContactPoint {
     pub frame: Frame,
     /// Place from the origin of that frame along its axes [m].
     pub place_m: [f64; 3],
+    /// Radius of the ball about this place that touches [m]: a rounded corner; 0: the place itself.
+    pub radius_m: f64,
 }

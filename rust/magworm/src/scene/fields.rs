@@ -53,6 +53,7 @@ pub(super) static SCENE: Table = Table {
         required("material", Kind::Table(&MATERIAL)),
         optional("magnet", Kind::Table(&MAGNET)),
         optional("ground", Kind::Table(&GROUND)),
+        optional("contact", Kind::Table(&CONTACT)),
         optional("drive", Kind::Table(&DRIVE)),
         optional("field", Kind::Table(&FIELD)),
         optional("magnetic_terms", Kind::Table(&MAGNETIC_TERMS)),
@@ -166,6 +167,8 @@ static GROUND: Table = Table {
         optional("incline_deg", real("°", -90.0, 90.0)),
     ],
 };
+
+static CONTACT: Table = Table { fields: &[optional("edge_radius_m", real("m", 0.0, 0.25))] };
 
 static DRIVE: Table = Table {
     fields: &[

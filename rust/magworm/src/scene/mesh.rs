@@ -66,7 +66,7 @@ impl Mesh {
         };
         for (place, segment) in plan.segments.iter().enumerate() {
             match &segment.magnet {
-                Some(magnet) => mesh.add_magnet(segment, magnet, scene.dimensions),
+                Some(magnet) => mesh.add_magnet(segment, magnet, scene),
                 None => {
                     let wall_m = if place == 0 { behind_wall_m } else { 0.0 };
                     mesh.add_elements(segment, segment.length_m + wall_m, None);
@@ -114,7 +114,7 @@ impl Mesh {
     }
 
     /// A body with its magnet, the rubber before and behind it, and its contact points where the segment is a foot.
-    fn add_magnet(&mut self, segment: &Segment, magnet: &SegmentMagnet, dimensions: usize) {
+    fn add_magnet(&mut self, segment: &Segment, magnet: &SegmentMagnet, scene: &Scene) {
         let [before_m, behind_m] = segment.ends_m(magnet);
         self.add_elements(segment, before_m, None);
         let (body, element) = (self.bodies.len(), self.elements.len());
@@ -123,7 +123,7 @@ impl Mesh {
         self.magnets.push(MeshMagnet { body, magnet: magnet.clone() });
         self.add_elements(segment, behind_m, None);
         if segment.foot {
-            self.add_corners(segment, magnet.along_m, body, dimensions);
+            self.add_corners(segment, magnet.along_m, body, scene);
         }
     }
 
@@ -142,14 +142,18 @@ impl Mesh {
         }
     }
 
-    /// A toe and a heel in the plane, two of each in space.
-    fn add_corners(&mut self, foot: &Segment, along_m: f64, body: usize, dimensions: usize) {
-        let across = Dimensions::new(dimensions).across;
-        let depth_m = 0.5 * foot.thickness_m;
-        for end_m in [-0.5 * foot.length_m, 0.5 * foot.length_m] {
+    /// A toe and a heel in the plane, two of each in space; those that are rounded by the centres of their balls.
+    fn add_corners(&mut self, foot: &Segment, along_m: f64, body: usize, scene: &Scene) {
+        let across = Dimensions::new(scene.dimensions).across;
+        let radius_m = scene.contact.edge_radius_m;
+        let depth_m = 0.5 * foot.thickness_m - radius_m;
+        let end_m = 0.5 * foot.length_m - radius_m;
+        let width_m = foot.width_m - 2.0 * radius_m;
+        for end_m in [-end_m, end_m] {
             self.contact_points.extend(across.iter().map(|across| ContactPoint {
                 frame: Frame::Body(body),
-                place_m: [end_m - along_m, -depth_m, across * foot.width_m],
+                place_m: [end_m - along_m, -depth_m, across * width_m],
+                radius_m,
             }));
         }
     }
@@ -168,6 +172,7 @@ impl Mesh {
             .map(|node| ContactPoint {
                 frame: Frame::Node(node),
                 place_m: [0.0, -0.5 * thickness_m(node), 0.0],
+                radius_m: 0.0,
             })
             .collect()
     }

@@ -14,6 +14,7 @@ mod accuracy;
 pub(crate) mod bends;
 mod body;
 mod check;
+mod contact;
 mod contact_point;
 mod direction;
 mod drive;
@@ -37,6 +38,7 @@ pub use body::{
     Body, Clamp, Magnet, Material, Relaxation, Rod, RodMagnet, Segment, SegmentMagnet, Segments,
     Worm,
 };
+pub use contact::Contact;
 pub use contact_point::{ContactPoint, Frame};
 #[doc(hidden)] // for the project's own tests
 pub use direction::Direction;
@@ -77,6 +79,9 @@ pub struct Scene {
     /// Flat ground; none leaves contact out.
     #[serde(default)]
     pub ground: Option<Ground>,
+    /// How the body touches.
+    #[serde(default)]
+    pub contact: Contact,
     /// Drive magnets beneath the ground; none leaves their wrench out.
     #[serde(default)]
     pub drive: Option<Drive>,

@@ -19,6 +19,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
             let solver = solver(&mut rest);
             let steps = rest.whole(1, 40) as f64;
             let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
+            let edge_m = most_rounded_m(&body);
             let motion = drive_motion(&mut world, dimensions);
             let mut scene = Scene {
                 name: "extreme".into(),
@@ -45,6 +46,9 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     ..Start::default()
                 },
                 ground,
+                contact: Contact {
+                    edge_radius_m: rest.one_of(&[0.0, 0.5 * edge_m, edge_m]),
+                },
                 control: Control {
                     step_s: steps * solver.step_s,
                     episode_s: steps * solver.step_s,
@@ -116,6 +120,14 @@ fn worm(dice: &mut Dice, magnets: usize, thickness_m: f64, width_m: f64, spare: 
         elements_per_bridge: bridges,
         elements_per_foot_end: 1,
     })
+}
+
+/// The greatest radius of the edges of a body's feet; 0 without feet.
+fn most_rounded_m(body: &Body) -> f64 {
+    match body {
+        Body::Worm(worm) => 0.5 * worm.foot_length_m.min(worm.foot_thickness_m).min(worm.width_m),
+        Body::Rod(_) | Body::Segments(_) => 0.0,
+    }
 }
 
 /// Friction up to 10 on inclines up to the vertical.

@@ -24,7 +24,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
         prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
     let shape = dice(bends::NUMBERS);
-    (body, drive, ground, field, time, dice(18), dice(22), ".{0,12}", shape)
+    (body, drive, ground, field, time, dice(20), dice(22), ".{0,12}", shape)
         .prop_map(
             move |(
                 (body, magnet),
@@ -40,6 +40,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 let control = control(&mut time, &solver);
                 let gravity_m_s2 = rest.between(0.0, 981.0);
                 let (material, terms) = (material(&mut rest), magnetic_terms(&mut rest));
+                let contact = contact(&mut rest, &body, dimensions);
                 let scene = Scene {
                     name,
                     gravity_m_s2,
@@ -50,6 +51,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     magnetic_terms: terms.clone(),
                     start: start(&mut reset, ground.is_some(), dimensions),
                     ground,
+                    contact,
                     drive,
                     field,
                     solver: with_interval(solver, &control, time.whole(1, 12)),
@@ -133,6 +135,26 @@ fn ground(dice: &mut Dice) -> Ground {
         adhesion_n: dice.between(0.0, 100.0),
         incline_deg: dice.between(-90.0, 90.0),
     }
+}
+
+/// Feet with sharp edges, or rounded as far as the smallest of them allows.
+fn contact(dice: &mut Dice, body: &Body, dimensions: usize) -> Contact {
+    let shortest_m = |length_m: f64, thickness_m: f64, width_m: f64| {
+        let in_plane_m = length_m.min(thickness_m);
+        if dimensions == 2 { in_plane_m } else { in_plane_m.min(width_m) }
+    };
+    let shortest_m = match body {
+        Body::Worm(worm) => shortest_m(worm.foot_length_m, worm.foot_thickness_m, worm.width_m),
+        Body::Rod(_) => 0.0,
+        Body::Segments(body) => {
+            let feet = body.segment.iter().filter(|segment| segment.foot);
+            let edges_m = feet.map(|foot| shortest_m(foot.length_m, foot.thickness_m, foot.width_m));
+            edges_m.reduce(f64::min).unwrap_or(0.0)
+        }
+    };
+    let rounded = dice.coin();
+    let edge_radius_m = 0.5 * shortest_m * dice.between(0.0, 1.0);
+    Contact { edge_radius_m: if rounded { edge_radius_m } else { 0.0 } }
 }
 
 fn uniform_field(dice: &mut Dice, dimensions: usize) -> UniformField {

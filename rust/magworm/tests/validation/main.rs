@@ -12,6 +12,7 @@ mod contact_block;
 mod contact_impact;
 mod contact_robust;
 mod contact_rock;
+mod contact_rounded;
 mod contact_slide;
 mod contact_weight;
 mod crawl;

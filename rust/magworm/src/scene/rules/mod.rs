@@ -1,6 +1,7 @@
 //! Rules between fields, checked once each field by itself is in range.
 
 mod body;
+mod contact;
 mod drive;
 mod elements;
 mod rod;
@@ -17,6 +18,7 @@ use super::schema::quantity;
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     body::check(scene)?;
     surroundings(scene)?;
+    contact::check(scene)?;
     drive::check(scene)?;
     space::check(scene)?;
     start::check(scene)?;

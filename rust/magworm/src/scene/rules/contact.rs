@@ -1,0 +1,28 @@
+//! Rules of contact: the edges of feet.
+
+use super::super::error::Problem;
+use super::super::schema::quantity;
+use super::super::{Plan, Scene};
+use super::require;
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    let radius_m = scene.contact.edge_radius_m;
+    if radius_m == 0.0 {
+        return Ok(());
+    }
+    let most_m = most_rounded_m(scene);
+    require(radius_m <= most_m, "contact.edge_radius_m", quantity(radius_m, "m"), || {
+        format!("at most {}, half of the shortest edge of a foot", quantity(most_m, "m"))
+    })
+}
+
+/// Half of the shortest edge of all feet; 0 without feet.
+fn most_rounded_m(scene: &Scene) -> f64 {
+    let plan = Plan::new(scene);
+    let feet = plan.segments.iter().filter(|segment| segment.foot);
+    let shortest_m = feet.map(|foot| {
+        let in_plane_m = foot.length_m.min(foot.thickness_m);
+        if scene.dimensions == 2 { in_plane_m } else { in_plane_m.min(foot.width_m) }
+    });
+    shortest_m.reduce(f64::min).map_or(0.0, |edge_m| 0.5 * edge_m)
+}
