@@ -1,7 +1,7 @@
 //! Velocities and impulses at a contact, along the normal n and the tangents t of the surface.
 
 use crate::lanes::{Components, Dim, Isa, Real};
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 /// Components along the normal and along the tangents. Stored as D rows, the normal's first.
 #[derive(Clone, Copy)]
@@ -59,6 +59,14 @@ impl<D: Dim, F: Real> Sub for ContactVector<D, F> {
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
         Self::new(self.normal - b.normal, self.tangent - b.tangent)
+    }
+}
+
+impl<D: Dim, F: Real> Neg for ContactVector<D, F> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.normal, -self.tangent)
     }
 }
 

@@ -8,11 +8,13 @@
 //! A rounded corner is a ball of radius R [m] about c, whose lowest point touches; R is 0 where it is sharp. On its arc goes
 //! the centre of the ball: the lowest point stays below it however the body turns, so a ball rolls.
 
-use super::jacobian::{arc_velocity, point_velocity};
+use super::jacobian::arc_velocity;
 use super::law::ContactLaw;
-use super::{ContactMode, ContactVector, surface};
+use super::surface::{self, ContactFrame};
+use super::touch::Touch;
+use super::{ContactMode, ContactVector, Workspace};
 use crate::lanes::{Components, Dim, Isa, Real};
-use crate::model::{ContactPair, Frame, Model};
+use crate::model::{ContactPair, Foot, Frame, Model, Surface};
 use crate::state::Block;
 
 /// Largest speed at which a point that starts inside a surface is pushed out [m/s].
@@ -42,30 +44,81 @@ fn detect_point<D: Dim, I: Isa>(
     step_s: f64,
 ) {
     let (centre, place) = arm_and_place::<D, I>(isa, block, pair);
-    let (mut gap, frame) = surface::evaluate::<D, I::F>(pair.surface, place);
-    let mut arm = centre;
-    if pair.point.radius_m > 0.0 {
-        let radius = isa.splat(pair.point.radius_m);
-        let none = D::Tangent::splat(isa.splat(0.0));
-        gap = gap - radius;
-        arm = arm - frame.vector(ContactVector::<D, I::F>::new(radius, none));
-    }
-    arm.store(isa, &mut block.contact.arm[D::AXES * c..]);
+    let gap = match pair.surface {
+        Surface::FlatGround => {
+            let radius_m = pair.point.radius_m;
+            let gap = surface::gap_to_ground::<D, I::F>(place);
+            meet_ground::<D, I>(isa, &mut block.contact, c, radius_m, centre);
+            if radius_m > 0.0 { gap - radius_m } else { gap }
+        }
+        Surface::Foot(foot) => meet_foot::<D, I>(isa, block, c, pair, &foot, [centre, place]),
+    };
+    let touch = Touch::<D, I::F>::load(isa, &block.contact, c, pair);
     let inside = gap.lt(isa.splat(0.0));
     let time_s = I::F::select(inside, law.dissipation_time_s, isa.splat(step_s));
     let approach = (gap / time_s).max(isa.splat(-MAX_CORRECTIVE_SPEED_M_S));
-    let (first, rigid) = (pair.dof, pair.rigid);
-    let arc = arc_velocity::<D, I>(isa, &block.v, first, rigid, centre, step_s);
-    let mut bias: ContactVector<D, I::F> = frame.components(arc);
+    let [first, second] = pair.dofs();
+    let mut arc = arc_velocity::<D, I>(isa, &block.v, first, pair.rigid, centre, step_s);
+    if let Some(arm) = touch.surface_arm {
+        arc = arc - arc_velocity::<D, I>(isa, &block.v, second, true, arm, step_s);
+    }
+    let mut bias = touch.frame.components(arc);
     bias.normal = bias.normal + approach;
-    let velocity = point_velocity::<D, I>(isa, &block.v, first, rigid, arm);
-    let u: ContactVector<D, I::F> = frame.components(velocity);
+    let u = touch.velocity(isa, &block.v, pair.dofs());
     // A velocity that is not a number compares as false, so it makes no point active.
     let closed = !isa.load(&block.contact_mode[c]).eq(isa.splat(ContactMode::Open.code()));
     let active = closed | (u.normal + bias.normal).le(isa.splat(0.0));
     let work = &mut block.contact;
     bias.store(isa, &mut work.bias, c);
     isa.store(I::F::select(active, isa.splat(1.0), isa.splat(0.0)), &mut work.active[c]);
+}
+
+/// Stores the arm of the lowest point of a ball about the end of an arm.
+#[inline(always)]
+fn meet_ground<D: Dim, I: Isa>(
+    isa: I,
+    work: &mut Workspace<I::Row>,
+    c: usize,
+    radius_m: f64,
+    mut arm: D::Vector<I::F>,
+) {
+    if radius_m > 0.0 {
+        let none = D::Tangent::splat(isa.splat(0.0));
+        let upwards = ContactVector::new(isa.splat(radius_m), none);
+        arm = arm - ContactFrame::<D, I::F>::Upright.vector(upwards);
+    }
+    arm.store(isa, &mut work.arm[D::AXES * c..]);
+}
+
+/// Stores the arms and the normal of the point where a ball about a place is nearest to a foot; its gap [m].
+#[inline(always)]
+fn meet_foot<D: Dim, I: Isa>(
+    isa: I,
+    block: &mut Block<I::Row>,
+    c: usize,
+    pair: &ContactPair,
+    foot: &Foot,
+    [arm, place]: [D::Vector<I::F>; 2],
+) -> I::F {
+    let Some(body) = pair.surface_body else { return isa.splat(0.0) };
+    let frame = D::Frame::load(isa, &block.frame[D::Frame::<I::F>::COUNT * foot.body..]);
+    let from_body = place - D::Vector::load(isa, &block.q[body.dof..]);
+    let mut local = from_body;
+    for axis in 0..D::AXES {
+        local[axis] = from_body.dot(D::axis(frame, axis));
+    }
+    local[0] = local[0] - foot.centre_m;
+    let (gap, outwards) = surface::nearest_of_foot::<D, I::F>(foot, local);
+    let mut normal = D::axis(frame, 0) * outwards[0];
+    for axis in 1..D::AXES {
+        normal = normal + D::axis(frame, axis) * outwards[axis];
+    }
+    let radius = isa.splat(pair.point.radius_m);
+    let (work, first) = (&mut block.contact, D::AXES * body.place);
+    (arm - normal * radius).store(isa, &mut work.arm[D::AXES * c..]);
+    (from_body - normal * radius).store(isa, &mut work.surface_arm[first..]);
+    normal.store(isa, &mut work.surface_normal[first..]);
+    gap - radius
 }
 
 /// Lever arm of a contact point from its body, and its place in the world [m].
@@ -111,7 +164,5 @@ pub(super) fn start_velocity<D: Dim, I: Isa>(
     c: usize,
     pair: &ContactPair,
 ) -> ContactVector<D, I::F> {
-    let arm = D::Vector::load(isa, &block.contact.arm[D::AXES * c..]);
-    let velocity = point_velocity::<D, I>(isa, &block.v, pair.dof, pair.rigid, arm);
-    surface::frame(pair.surface).components(velocity)
+    Touch::load(isa, &block.contact, c, pair).velocity(isa, &block.v, pair.dofs())
 }

@@ -67,14 +67,14 @@ pub(super) fn add_force<D: Dim, I: Isa>(
     }
 }
 
-/// Adds Jᵀ C J to the rows of a body, C by columns: entry (i, j) stands at `place` + i · stride + j.
+/// Adds Jᵀ C J with the arms of J on the left and on the right, C by columns: entry (i, j) stands at `place` + i · stride + j.
 #[inline(always)]
 pub(super) fn add_block<D: Dim, I: Isa>(
     isa: I,
     matrix: &mut [I::Row],
     [place, stride]: [usize; 2],
     rigid: bool,
-    arm: D::Vector<I::F>,
+    [left, right]: [D::Vector<I::F>; 2],
     columns: &[D::Vector<I::F>; 3],
 ) {
     for row in 0..D::AXES {
@@ -87,13 +87,13 @@ pub(super) fn add_block<D: Dim, I: Isa>(
         return;
     }
     // C G with G ω = ω × r: its row i is r × (row i of C).
-    let mut turned = [D::Angular::splat(arm[0]); 3];
+    let mut turned = [D::Angular::splat(right[0]); 3];
     for row in 0..D::AXES {
         let mut entries = columns[0];
         for column in 0..D::AXES {
             entries[column] = columns[column][row];
         }
-        turned[row] = D::torque(arm, entries);
+        turned[row] = D::torque(right, entries);
         let of_force = &mut matrix[place + row * stride + D::AXES..][..D::ROTATIONS];
         for k in 0..D::ROTATIONS {
             add(isa, &mut of_force[k], turned[row][k]);
@@ -101,14 +101,14 @@ pub(super) fn add_block<D: Dim, I: Isa>(
     }
     let mut torques = [[turned[0]; 3]; 2];
     for column in 0..D::AXES {
-        torques[0][column] = D::torque(arm, columns[column]);
+        torques[0][column] = D::torque(left, columns[column]);
     }
     for column in 0..D::ROTATIONS {
         let mut force = columns[0];
         for row in 0..D::AXES {
             force[row] = turned[row][column];
         }
-        torques[1][column] = D::torque(arm, force);
+        torques[1][column] = D::torque(left, force);
     }
     for k in 0..D::ROTATIONS {
         let of_torque = &mut matrix[place + (D::AXES + k) * stride..][..D::BODY];

@@ -11,7 +11,7 @@
 
 use super::{ContactMode, ContactVector};
 use crate::lanes::{Dim, Isa, Real};
-use crate::model::ContactParameters;
+use crate::model::{ContactPair, ContactParameters};
 use crate::scene::Parameter;
 use crate::state::Block;
 
@@ -72,6 +72,16 @@ impl<F: Real> ContactLaw<F> {
             damper_share: one * (1.0 - step_s / dissipation_time_s),
             dissipation_time_s: one * dissipation_time_s,
         }
+    }
+
+    /// That of a pair: bodies that meet have no friction.
+    #[inline(always)]
+    pub(super) fn of(&self, pair: &ContactPair) -> Self {
+        if pair.surface_body.is_none() {
+            return *self;
+        }
+        let none = self.adhesion.splat(0.0);
+        Self { static_friction: none, dynamic_friction: none, adhesion: none, ..*self }
     }
 
     /// F(λ_n) of Coulomb's law.

@@ -49,6 +49,7 @@ mod newton_system;
 mod solve;
 mod stick_slip;
 mod surface;
+mod touch;
 mod tresca;
 
 use contact_vector::ContactVector;

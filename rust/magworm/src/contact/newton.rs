@@ -9,10 +9,10 @@
 //! changes along d are computed once a direction, and a trial costs no product with a matrix.
 
 use super::hessian::ContactHessian;
-use super::jacobian::{add_force, point_velocity};
 use super::law::{ContactLaw, FrictionLaw, PointState};
 use super::line_search::LineSearch;
-use super::{ContactMode, ContactVector, Workspace, store_where, surface};
+use super::touch::Touch;
+use super::{ContactMode, ContactVector, Workspace, store_where};
 use crate::lanes::{Components, Dim, Isa, Mask, Number, Real};
 use crate::model::Model;
 use crate::state::Block;
@@ -74,9 +74,8 @@ pub(super) fn newton_direction<D: Dim, I: Isa>(
     let symmetric = model.system.kept_entries(&block.matrix);
     kept.multiply(isa, symmetric, &work.direction, &mut work.free_residual_change);
     for (c, pair) in model.contacts.iter().enumerate() {
-        let arm = D::Vector::load(isa, &work.arm[D::AXES * c..]);
-        let change = point_velocity::<D, I>(isa, &work.direction, pair.row, pair.rigid, arm);
-        let change: ContactVector<D, I::F> = surface::frame(pair.surface).components(change);
+        let touch = Touch::<D, I::F>::load(isa, work, c, pair);
+        let change = touch.velocity(isa, &work.direction, pair.rows());
         change.store_where(isa, mask, &mut work.velocity_change, c);
     }
 }
@@ -98,8 +97,8 @@ pub(super) fn line_search_trial<D: Dim, I: Isa>(
     search.store(isa, &mut block.contact.line_search);
     if accepted.any() {
         take_step(isa, &mut block.contact, step, accepted);
-        for c in 0..model.contacts.len() {
-            linearise_point::<D, I>(isa, law, friction, block, c, accepted);
+        for (c, pair) in model.contacts.iter().enumerate() {
+            linearise_point::<D, I>(isa, &law.of(pair), friction, block, c, accepted);
         }
     }
     let converged = accepted & search.converged();
@@ -122,10 +121,9 @@ fn residual_at<D: Dim, I: Isa>(
         let velocity = ContactVector::<D, I::F>::load(isa, &work.velocity, c);
         let change = ContactVector::<D, I::F>::load(isa, &work.velocity_change, c);
         let point = load_point::<D, I>(isa, work, c);
-        let found = point.impulse(law, friction, velocity + change * step);
-        let arm = D::Vector::load(isa, &work.arm[D::AXES * c..]);
-        let force = surface::frame(pair.surface).vector(found.impulse);
-        add_force::<D, I>(isa, &mut work.residual[pair.row..], pair.rigid, arm, -force);
+        let found = point.impulse(&law.of(pair), friction, velocity + change * step);
+        let touch = Touch::<D, I::F>::load(isa, work, c, pair);
+        touch.add_impulse(isa, &mut work.residual, pair.rows(), -found.impulse);
     }
     residual_squared(isa, work)
 }

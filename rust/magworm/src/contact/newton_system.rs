@@ -1,9 +1,8 @@
 //! The linear system of one Newton iteration: (S + Jᵀ C J) v = s + Jᵀ λ*, with λ* and C of all points.
 
 use super::hessian::ContactHessian;
-use super::jacobian::{add_block, add_force};
-use super::surface;
-use crate::lanes::{Components, Dim, Isa, unsymmetric};
+use super::touch::Touch;
+use crate::lanes::{Dim, Isa, unsymmetric};
 use crate::model::Model;
 use crate::state::Block;
 
@@ -43,16 +42,11 @@ fn eliminate<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 fn add_contacts<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let band = model.system.kept();
     let ghosts = band.half_bandwidth();
-    let stride = unsymmetric::row_length(ghosts) - 1;
     for (c, pair) in model.contacts.iter().enumerate() {
         let hessian = ContactHessian::<D, I::F>::load(isa, &block.contact.hessian, c);
-        let arm = D::Vector::load(isa, &block.contact.arm[D::AXES * c..]);
-        let frame = surface::frame(pair.surface);
-        let force = frame.vector(hessian.impulse);
-        let rhs = &mut block.contact.solution[ghosts + pair.row..];
-        add_force::<D, I>(isa, rhs, pair.rigid, arm, force);
-        let place = [unsymmetric::at(band, pair.row, pair.row), stride];
-        let columns = frame.matrix(hessian.columns());
-        add_block::<D, I>(isa, &mut block.contact.matrix, place, pair.rigid, arm, &columns);
+        let touch = Touch::<D, I::F>::load(isa, &block.contact, c, pair);
+        let rhs = &mut block.contact.solution[ghosts..];
+        touch.add_impulse(isa, rhs, pair.rows(), hessian.impulse);
+        touch.add_hessian(isa, &mut block.contact.matrix, band, pair.rows(), &hessian);
     }
 }

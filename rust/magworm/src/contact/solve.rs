@@ -106,7 +106,7 @@ fn solve_contact<D: Dim, I: Isa>(
         #[inline(always)]
         || {
             for (c, pair) in model.contacts.iter().enumerate() {
-                warm_start::<D, I>(isa, law, block, c, pair);
+                warm_start::<D, I>(isa, &law.of(pair), block, c, pair);
             }
             begin::<D, I>(isa, model, block);
         },
@@ -158,14 +158,14 @@ fn start<D: Dim, I: Isa>(
         #[inline(always)]
         || {
             let work = &mut block.contact;
-            for c in 0..model.contacts.len() {
+            for (c, pair) in model.contacts.iter().enumerate() {
                 match strategy.start {
                     Start::Sticking => cold_start::<D, I>(isa, law, work, c, true, mask),
                     Start::Frictionless => cold_start::<D, I>(isa, law, work, c, false, mask),
                     Start::Warm | Start::Here => {}
                 }
                 if strategy.friction != Friction::Coulomb {
-                    lag_friction_bound(isa, law, work, c, D::AXES);
+                    lag_friction_bound(isa, &law.of(pair), work, c, D::AXES);
                 }
             }
             let mut search = LineSearch::load(isa, &work.line_search);

@@ -26,7 +26,9 @@ pub(super) fn stick_slip_transition<D: Dim, I: Isa>(
 ) -> I::M {
     let (limit, drop) = (law.transition_speed, law.static_friction - law.dynamic_friction);
     let mut any = limit.lt(limit);
-    for (c, pair) in model.contacts.iter().enumerate() {
+    let on_ground =
+        model.contacts.iter().enumerate().filter(|(_, pair)| pair.surface_body.is_none());
+    for (c, pair) in on_ground {
         let before = D::length(start_velocity::<D, I>(isa, block, c, pair).tangent);
         let end = ContactVector::<D, I::F>::load(isa, &block.contact.velocity, c);
         let after = D::length(end.tangent);

@@ -40,15 +40,15 @@ pub(super) fn relax_friction_bounds<I: Isa>(
 ) -> I::M {
     let zero = isa.splat(0.0);
     let (mut difference, mut total) = (zero, zero);
-    for c in 0..model.contacts.len() {
-        let [coulomb, bound] = coulomb_and_tresca_bound(isa, law, block, c);
+    for (c, pair) in model.contacts.iter().enumerate() {
+        let [coulomb, bound] = coulomb_and_tresca_bound(isa, &law.of(pair), block, c);
         difference = difference.max((coulomb - bound).abs());
         total = total + coulomb;
     }
     let reached = difference.le(total * TOLERANCE);
     let moves = mask & !reached;
-    for c in 0..model.contacts.len() {
-        let [coulomb, bound] = coulomb_and_tresca_bound(isa, law, block, c);
+    for (c, pair) in model.contacts.iter().enumerate() {
+        let [coulomb, bound] = coulomb_and_tresca_bound(isa, &law.of(pair), block, c);
         store_where(isa, moves, (coulomb + bound) * 0.5, &mut block.contact.friction_bound[c]);
     }
     let mut search = LineSearch::load(isa, &block.contact.line_search);

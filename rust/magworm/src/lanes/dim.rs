@@ -61,6 +61,10 @@ pub trait Dim: Copy + Send + Sync + 'static {
     ) -> Self::Tangent<F>;
     /// A vector given along the axes of a body (tangent, up, side), along the world's; the body's frame as its rows hold it.
     fn to_world<F: Real>(frame: Self::Frame<F>, place: [f64; 3]) -> Self::Vector<F>;
+    /// Axis of a body: tangent, up, in space side; the body's frame as its rows hold it.
+    fn axis<F: Real>(frame: Self::Frame<F>, axis: usize) -> Self::Vector<F>;
+    /// Tangents of a surface that has this normal. That of +y in the plane is +x.
+    fn tangents<F: Real>(normal: Self::Vector<F>) -> [Self::Vector<F>; 2];
 }
 
 /// Motion in the plane x–y.
@@ -132,6 +136,15 @@ impl Dim for Plane {
         let [cos, sin] = frame.0;
         Vector([cos * along - sin * up, sin * along + cos * up])
     }
+    #[inline(always)]
+    fn axis<F: Real>(frame: Vector<F, 2>, axis: usize) -> Vector<F, 2> {
+        let [cos, sin] = frame.0;
+        Vector([[cos, sin], [-sin, cos]][axis])
+    }
+    #[inline(always)]
+    fn tangents<F: Real>(normal: Vector<F, 2>) -> [Vector<F, 2>; 2] {
+        [Vector([normal[1], -normal[0]]); 2]
+    }
 }
 
 impl Dim for Space {
@@ -200,5 +213,19 @@ impl Dim for Space {
             ty * along + uy * up + sy * side,
             tz * along + uz * up + sz * side,
         ])
+    }
+    #[inline(always)]
+    fn axis<F: Real>(frame: Vector<F, 9>, axis: usize) -> Vec3<F> {
+        let [tx, ty, tz, ux, uy, uz, sx, sy, sz] = frame.0;
+        Vector([[tx, ty, tz], [ux, uy, uz], [sx, sy, sz]][axis])
+    }
+    /// Without a branch and without cancellation (Duff et al. 2017).
+    #[inline(always)]
+    fn tangents<F: Real>(normal: Vec3<F>) -> [Vec3<F>; 2] {
+        let [x, y, z] = normal.0;
+        let sign = z.splat(1.0).copysign(z);
+        let a = -(z.splat(1.0) / (sign + z));
+        let b = x * y * a;
+        [Vector([x * x * a * sign + 1.0, sign * b, -(sign * x)]), Vector([b, sign + y * y * a, -y])]
     }
 }

@@ -2,13 +2,15 @@
 
 use super::coordinates::{Anchor, Coordinates};
 use crate::lanes::chain::Chain;
-use crate::scene::{ContactPoint, Frame, Ground, Mesh, Problem, Scene};
+use crate::scene::{ContactPoint, Foot, Frame, Ground, Mesh, Problem, Scene};
 
 /// Shape of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Surface {
     /// The plane y = 0 with the normal +y.
     FlatGround,
+    /// The nearest face or edge of a foot.
+    Foot(Foot),
 }
 
 /// A contact point, and the surface that it may press on.
@@ -26,6 +28,31 @@ pub struct ContactPair {
     pub row: usize,
     /// Whether the point turns with a magnet.
     pub rigid: bool,
+    /// The body that carries the surface; none where it stands still.
+    pub surface_body: Option<SurfaceBody>,
+}
+
+/// A body that carries the surface of a contact pair.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceBody {
+    /// Its first unknown.
+    pub dof: usize,
+    /// Row of that unknown among those that the contact solve keeps.
+    pub row: usize,
+    /// Place of the pair among those whose surface a body carries.
+    pub place: usize,
+}
+
+impl ContactPair {
+    /// First unknowns that the point moves with, and the surface where a body carries it.
+    pub fn dofs(&self) -> [usize; 2] {
+        [self.dof, self.surface_body.map_or(0, |body| body.dof)]
+    }
+
+    /// Rows of these among those that the contact solve keeps.
+    pub fn rows(&self) -> [usize; 2] {
+        [self.row, self.surface_body.map_or(0, |body| body.row)]
+    }
 }
 
 /// Parameters of the contact law, see [`crate::contact`].
@@ -47,6 +74,9 @@ pub struct ContactParameters {
 
 /// Compression of the contact spring under the weight of the whole body, as a share of the body's thickness.
 const STATIC_COMPRESSION: f64 = 1e-3;
+/// Least radius of the edges with which feet meet, as a part of their shortest edge. Of sharp feet that meet end to end, corner on
+/// corner, the side would be as near as the end.
+const LEAST_ROUNDED: f64 = 0.05;
 /// Largest effective mass of a contact, in masses of the body: with more a long step would find no solution.
 const MAX_EFFECTIVE_MASS: f64 = 100.0;
 
@@ -90,7 +120,15 @@ pub(super) fn contact_pairs(
         let (dof, rigid) = moves_with(point.frame, coordinates)?;
         let (surface, surface_frame) = (Surface::FlatGround, Frame::World);
         let kept = system.place(dof).ok_or_else(|| eliminated(dof));
-        Some(kept.map(|row| ContactPair { point, surface, surface_frame, dof, row, rigid }))
+        Some(kept.map(|row| ContactPair {
+            point,
+            surface,
+            surface_frame,
+            dof,
+            row,
+            rigid,
+            surface_body: None,
+        }))
     };
     points.iter().filter_map(pair).collect()
 }
@@ -102,6 +140,40 @@ fn eliminated(dof: usize) -> Problem {
         value: format!("a layout with a contact point on unknown {dof}"),
         allowed: "contact points on magnets where soft unknowns are eliminated".into(),
     }
+}
+
+/// The pairs of neighbouring feet: all corners of each with the other.
+pub(super) fn pairs_between_feet(
+    feet: &[Foot],
+    across: &[f64],
+    coordinates: &Coordinates,
+    system: &Chain,
+) -> Result<Vec<ContactPair>, Problem> {
+    let place = |foot: &Foot| {
+        let dof = coordinates.bodies[foot.body];
+        system.place(dof).map(|row| (dof, row)).ok_or_else(|| eliminated(dof))
+    };
+    let feet: Vec<Foot> =
+        feet.iter().map(|foot| foot.rounded(LEAST_ROUNDED, coordinates.dimensions)).collect();
+    let neighbours = feet.windows(2).flat_map(|two| [(two[0], two[1]), (two[1], two[0])]);
+    let corners = neighbours.flat_map(|(foot, other)| {
+        [-1.0, 1.0]
+            .into_iter()
+            .flat_map(move |up| foot.corners(up, across).map(move |corner| (foot, other, corner)))
+    });
+    let pair = |(index, (foot, other, point)): (usize, (Foot, Foot, ContactPoint))| {
+        let ((dof, row), (surface_dof, surface_row)) = (place(&foot)?, place(&other)?);
+        Ok(ContactPair {
+            point,
+            surface: Surface::Foot(other),
+            surface_frame: Frame::Body(other.body),
+            dof,
+            row,
+            rigid: true,
+            surface_body: Some(SurfaceBody { dof: surface_dof, row: surface_row, place: index }),
+        })
+    };
+    corners.enumerate().map(pair).collect()
 }
 
 /// First unknown that a frame moves with, and whether it turns with a magnet; none where it stands still.

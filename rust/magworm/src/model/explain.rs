@@ -37,6 +37,7 @@ impl Model {
         }
         line("gravity", self.explain_gravity());
         line("ground", self.explain_ground());
+        line("feet", self.explain_between_feet());
         line("drive", self.explain_drive());
         line("mutual", self.explain_mutual());
         line("uniform field", self.explain_field());
@@ -72,7 +73,7 @@ impl Model {
         match &self.program.contact {
             Some(law) => format!(
                 "{} contact points{} that {} of the unknowns move, static friction {}, dynamic {}",
-                self.contacts.len(),
+                self.contacts.len() - self.moving_surfaces(),
                 self.explain_edges(),
                 self.system.unknowns().len(),
                 law.static_friction,
@@ -86,6 +87,13 @@ impl Model {
         match self.scene.contact.edge_radius_m {
             0.0 => String::new(),
             radius_m => format!(" on edges rounded by {radius_m} m"),
+        }
+    }
+
+    fn explain_between_feet(&self) -> String {
+        match self.moving_surfaces() {
+            0 => "pass through each other: contact.between_feet is false".into(),
+            corners => format!("{corners} corners stop at neighbouring feet, without friction"),
         }
     }
 

@@ -19,7 +19,7 @@ pub(crate) mod rows;
 mod shape;
 mod waves;
 
-pub use crate::scene::{ContactPoint, Element, Frame, Mesh};
+pub use crate::scene::{ContactPoint, Element, Foot, Frame, Mesh};
 pub use contacts::{ContactPair, ContactParameters, Surface};
 pub use coordinates::{Anchor, Coordinates, MAX_STENCIL, Spin, Stencil, Tie, Unknowns};
 pub(crate) use fingerprint::Sum;
@@ -163,7 +163,16 @@ impl Model {
         let mut bend = bending_springs(scene, &mesh, &coordinates);
         let touching = if scene.ground.is_some() { &mesh.contact_points[..] } else { &[] };
         let system = system(&coordinates, &stretch, &bend, touching).map_err(no_kernel)?;
-        let contacts = contacts::contact_pairs(touching, &coordinates, &system)?;
+        let mut contacts = contacts::contact_pairs(touching, &coordinates, &system)?;
+        if scene.contact.between_feet {
+            let across = coordinates.sizes().across;
+            contacts.extend(contacts::pairs_between_feet(
+                &mesh.feet,
+                across,
+                &coordinates,
+                &system,
+            )?);
+        }
         let in_matrix = coordinates.ties.is_empty();
         stretch.iter_mut().filter(|_| in_matrix).for_each(|s| s.stencil.locate(&system));
         bend.iter_mut().filter(|_| in_matrix).for_each(|b| b.stencil.locate(&system));
@@ -212,6 +221,11 @@ impl Model {
     #[inline(always)]
     pub fn off_centre(&self) -> impl Iterator<Item = &OffCentre> {
         self.bodies.iter().filter_map(|body| body.off_centre.as_ref())
+    }
+
+    /// Number of contact pairs whose surface a body carries.
+    pub fn moving_surfaces(&self) -> usize {
+        self.contacts.iter().filter(|pair| pair.surface_body.is_some()).count()
     }
 
     /// Number of nodes.

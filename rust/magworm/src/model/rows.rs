@@ -140,6 +140,10 @@ macro_rules! block_rows {
             Contact {
                 /// r: from a point's body to the point, shape [contacts × D].
                 arm: "m", |m| m.dimensions() * m.contacts.len();
+                /// r from the body that carries a surface to where the point meets it, shape [contacts between bodies × D].
+                surface_arm: "m", |m| m.dimensions() * m.moving_surfaces();
+                /// Normal of such a surface there, shape [contacts between bodies × D].
+                surface_normal: "1", |m| m.dimensions() * m.moving_surfaces();
                 /// û: the part of a point's velocity that v has no share in, shape [contacts × D].
                 bias: "m/s", |m| m.dimensions() * m.contacts.len();
                 /// μ in this step, shape [contacts].

@@ -8,4 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Contact {
     /// Radius of the edges of feet, in space of their corners too [m]; 0: sharp.
     pub edge_radius_m: f64,
+    /// Whether neighbouring feet touch each other: corners of each on the faces of the other, without friction. A robot that
+    /// folds stops there.
+    pub between_feet: bool,
 }

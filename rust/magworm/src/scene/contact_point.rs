@@ -25,3 +25,40 @@ pub struct ContactPoint {
     /// Radius of the ball about this place that touches [m]: a rounded corner; 0: the place itself.
     pub radius_m: f64,
 }
+
+/// A foot: a box with rounded edges that moves with a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Foot {
+    /// The body.
+    pub body: usize,
+    /// Place of its middle along the body from the body's own [m].
+    pub centre_m: f64,
+    /// Half of its edges along tangent, up and side, less the radius [m].
+    pub half_m: [f64; 3],
+    /// Radius of its edges [m].
+    pub radius_m: f64,
+}
+
+impl Foot {
+    /// The same foot with edges rounded by a part of its shortest edge at least.
+    pub fn rounded(self, part: f64, axes: usize) -> Self {
+        let shortest_m = self.half_m[..axes].iter().copied().fold(f64::INFINITY, f64::min);
+        let least_m = 2.0 * part * (shortest_m + self.radius_m);
+        let more_m = (least_m - self.radius_m).max(0.0);
+        let half_m = self.half_m.map(|half_m| half_m - more_m);
+        Self { half_m, radius_m: self.radius_m + more_m, ..self }
+    }
+
+    /// Its corners below (−1) or above (1): one at each end in the plane, two in space; `across` in widths.
+    pub fn corners(self, up: f64, across: &[f64]) -> impl Iterator<Item = ContactPoint> {
+        let [length_m, height_m, width_m] = self.half_m;
+        let ends_m = [-length_m, length_m].into_iter();
+        let places =
+            ends_m.flat_map(move |end_m| across.iter().map(move |across| (end_m, 2.0 * across)));
+        places.map(move |(end_m, across)| ContactPoint {
+            frame: Frame::Body(self.body),
+            place_m: [end_m + self.centre_m, up * height_m, across * width_m],
+            radius_m: self.radius_m,
+        })
+    }
+}

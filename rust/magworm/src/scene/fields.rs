@@ -168,7 +168,12 @@ static GROUND: Table = Table {
     ],
 };
 
-static CONTACT: Table = Table { fields: &[optional("edge_radius_m", real("m", 0.0, 0.25))] };
+static CONTACT: Table = Table {
+    fields: &[
+        optional("edge_radius_m", real("m", 0.0, 0.25)),
+        optional("between_feet", Kind::Flag),
+    ],
+};
 
 static DRIVE: Table = Table {
     fields: &[

@@ -1,6 +1,6 @@
 //! The mesh: nodes, rod elements, rigid bodies with their magnets. Section changes and the ends of bodies fall on nodes.
 
-use super::contact_point::{ContactPoint, Frame};
+use super::contact_point::{ContactPoint, Foot, Frame};
 use super::{Plan, Scene, Segment, SegmentMagnet};
 use crate::lanes::Dimensions;
 use std::ops::Range;
@@ -18,6 +18,8 @@ pub struct Mesh {
     pub magnets: Vec<MeshMagnet>,
     /// Points of the underside that may touch the ground.
     pub contact_points: Vec<ContactPoint>,
+    /// The feet, head first.
+    pub feet: Vec<Foot>,
     /// Nodes held in place, from the head.
     pub fixed_nodes: usize,
 }
@@ -62,6 +64,7 @@ impl Mesh {
             bodies: Vec::new(),
             magnets: Vec::new(),
             contact_points: Vec::new(),
+            feet: Vec::new(),
             fixed_nodes: if plan.behind_wall_m.is_some() { 2 } else { 0 },
         };
         for (place, segment) in plan.segments.iter().enumerate() {
@@ -123,7 +126,7 @@ impl Mesh {
         self.magnets.push(MeshMagnet { body, magnet: magnet.clone() });
         self.add_elements(segment, behind_m, None);
         if segment.foot {
-            self.add_corners(segment, magnet.along_m, body, scene);
+            self.add_foot(segment, magnet.along_m, body, scene);
         }
     }
 
@@ -142,20 +145,15 @@ impl Mesh {
         }
     }
 
-    /// A toe and a heel in the plane, two of each in space; those that are rounded by the centres of their balls.
-    fn add_corners(&mut self, foot: &Segment, along_m: f64, body: usize, scene: &Scene) {
-        let across = Dimensions::new(scene.dimensions).across;
+    /// A foot, and the points that it stands on.
+    fn add_foot(&mut self, segment: &Segment, along_m: f64, body: usize, scene: &Scene) {
+        let edges_m = [segment.length_m, segment.thickness_m, segment.width_m];
         let radius_m = scene.contact.edge_radius_m;
-        let depth_m = 0.5 * foot.thickness_m - radius_m;
-        let end_m = 0.5 * foot.length_m - radius_m;
-        let width_m = foot.width_m - 2.0 * radius_m;
-        for end_m in [-end_m, end_m] {
-            self.contact_points.extend(across.iter().map(|across| ContactPoint {
-                frame: Frame::Body(body),
-                place_m: [end_m - along_m, -depth_m, across * width_m],
-                radius_m,
-            }));
-        }
+        let half_m = edges_m.map(|edge_m| 0.5 * edge_m - radius_m);
+        let foot = Foot { body, centre_m: -along_m, half_m, radius_m };
+        let across = Dimensions::new(scene.dimensions).across;
+        self.contact_points.extend(foot.corners(-1.0, across));
+        self.feet.push(foot);
     }
 
     /// One point below every node.

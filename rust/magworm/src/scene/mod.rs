@@ -39,7 +39,7 @@ pub use body::{
     Worm,
 };
 pub use contact::Contact;
-pub use contact_point::{ContactPoint, Frame};
+pub use contact_point::{ContactPoint, Foot, Frame};
 #[doc(hidden)] // for the project's own tests
 pub use direction::Direction;
 pub use drive::{Arrangement, Drive, Motion, Reference, StageLimits, Suspension};

@@ -19,7 +19,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
             let solver = solver(&mut rest);
             let steps = rest.whole(1, 40) as f64;
             let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
-            let edge_m = most_rounded_m(&body);
+            let contact = contact(&mut world, &body, ground.is_some(), solver.integrator);
             let motion = drive_motion(&mut world, dimensions);
             let mut scene = Scene {
                 name: "extreme".into(),
@@ -46,9 +46,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                     ..Start::default()
                 },
                 ground,
-                contact: Contact {
-                    edge_radius_m: rest.one_of(&[0.0, 0.5 * edge_m, edge_m]),
-                },
+                contact,
                 control: Control {
                     step_s: steps * solver.step_s,
                     episode_s: steps * solver.step_s,
@@ -122,11 +120,14 @@ fn worm(dice: &mut Dice, magnets: usize, thickness_m: f64, width_m: f64, spare: 
     })
 }
 
-/// The greatest radius of the edges of a body's feet; 0 without feet.
-fn most_rounded_m(body: &Body) -> f64 {
-    match body {
-        Body::Worm(worm) => 0.5 * worm.foot_length_m.min(worm.foot_thickness_m).min(worm.width_m),
-        Body::Rod(_) | Body::Segments(_) => 0.0,
+/// Feet with sharp edges or rounded ones, half of them such as do not pass through each other.
+fn contact(dice: &mut Dice, body: &Body, on_ground: bool, integrator: Integrator) -> Contact {
+    let Body::Worm(worm) = body else { return Contact::default() };
+    let most_m = 0.5 * worm.foot_length_m.min(worm.foot_thickness_m).min(worm.width_m);
+    let many = on_ground && worm.magnets > 1 && integrator != Integrator::Explicit;
+    Contact {
+        edge_radius_m: dice.one_of(&[0.0, 0.5 * most_m, most_m]),
+        between_feet: many && dice.coin(),
     }
 }
 

@@ -40,7 +40,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
                 let control = control(&mut time, &solver);
                 let gravity_m_s2 = rest.between(0.0, 981.0);
                 let (material, terms) = (material(&mut rest), magnetic_terms(&mut rest));
-                let contact = contact(&mut rest, &body, dimensions);
+                let contact = contact(&mut rest, &body, ground.is_some(), dimensions);
                 let scene = Scene {
                     name,
                     gravity_m_s2,
@@ -137,24 +137,31 @@ fn ground(dice: &mut Dice) -> Ground {
     }
 }
 
-/// Feet with sharp edges, or rounded as far as the smallest of them allows.
-fn contact(dice: &mut Dice, body: &Body, dimensions: usize) -> Contact {
+/// Feet with sharp edges, or rounded as far as the smallest of them allows; that pass through each other or do not.
+fn contact(dice: &mut Dice, body: &Body, on_ground: bool, dimensions: usize) -> Contact {
     let shortest_m = |length_m: f64, thickness_m: f64, width_m: f64| {
         let in_plane_m = length_m.min(thickness_m);
         if dimensions == 2 { in_plane_m } else { in_plane_m.min(width_m) }
     };
-    let shortest_m = match body {
-        Body::Worm(worm) => shortest_m(worm.foot_length_m, worm.foot_thickness_m, worm.width_m),
-        Body::Rod(_) => 0.0,
+    let (feet, shortest_m) = match body {
+        Body::Worm(worm) => {
+            (worm.magnets, shortest_m(worm.foot_length_m, worm.foot_thickness_m, worm.width_m))
+        }
+        Body::Rod(_) => (0, 0.0),
         Body::Segments(body) => {
             let feet = body.segment.iter().filter(|segment| segment.foot);
-            let edges_m = feet.map(|foot| shortest_m(foot.length_m, foot.thickness_m, foot.width_m));
-            edges_m.reduce(f64::min).unwrap_or(0.0)
+            let count = feet.clone().count();
+            let edges_m =
+                feet.map(|foot| shortest_m(foot.length_m, foot.thickness_m, foot.width_m));
+            (count, edges_m.reduce(f64::min).unwrap_or(0.0))
         }
     };
     let rounded = dice.coin();
     let edge_radius_m = 0.5 * shortest_m * dice.between(0.0, 1.0);
-    Contact { edge_radius_m: if rounded { edge_radius_m } else { 0.0 } }
+    Contact {
+        edge_radius_m: if rounded { edge_radius_m } else { 0.0 },
+        between_feet: on_ground && feet > 1 && dice.coin(),
+    }
 }
 
 fn uniform_field(dice: &mut Dice, dimensions: usize) -> UniformField {

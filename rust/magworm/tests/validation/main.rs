@@ -9,6 +9,7 @@ mod space_world;
 mod world;
 
 mod contact_block;
+mod contact_feet;
 mod contact_impact;
 mod contact_robust;
 mod contact_rock;

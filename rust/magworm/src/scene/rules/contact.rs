@@ -1,11 +1,16 @@
-//! Rules of contact: the edges of feet.
+//! Rules of contact: the edges of feet, and feet that touch each other.
 
 use super::super::error::Problem;
 use super::super::schema::quantity;
-use super::super::{Plan, Scene};
+use super::super::{Integrator, Plan, Scene};
 use super::require;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    edges(scene)?;
+    between_feet(scene)
+}
+
+fn edges(scene: &Scene) -> Result<(), Problem> {
     let radius_m = scene.contact.edge_radius_m;
     if radius_m == 0.0 {
         return Ok(());
@@ -14,6 +19,18 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     require(radius_m <= most_m, "contact.edge_radius_m", quantity(radius_m, "m"), || {
         format!("at most {}, half of the shortest edge of a foot", quantity(most_m, "m"))
     })
+}
+
+fn between_feet(scene: &Scene) -> Result<(), Problem> {
+    let field = "contact.between_feet";
+    let allowed = |holds: bool, words: &'static str| {
+        require(holds || !scene.contact.between_feet, field, "true".into(), || words.into())
+    };
+    allowed(scene.ground.is_some(), "false without [ground], whose contact springs feet have")?;
+    let explicit = scene.solver.integrator == Integrator::Explicit;
+    allowed(!explicit, "false where solver.integrator is \"explicit\"")?;
+    let feet = Plan::new(scene).segments.iter().filter(|segment| segment.foot).count();
+    allowed(feet > 1, "false where the body has less than two feet")
 }
 
 /// Half of the shortest edge of all feet; 0 without feet.
