@@ -170,6 +170,7 @@ static GROUND: Table = Table {
 
 static CONTACT: Table = Table {
     fields: &[
+        optional("points", Kind::Choice(&["feet", "nodes"])),
         optional("edge_radius_m", real("m", 0.0, 0.25)),
         optional("between_feet", Kind::Flag),
     ],

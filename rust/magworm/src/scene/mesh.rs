@@ -1,7 +1,7 @@
 //! The mesh: nodes, rod elements, rigid bodies with their magnets. Section changes and the ends of bodies fall on nodes.
 
 use super::contact_point::{ContactPoint, Foot, Frame};
-use super::{Plan, Scene, Segment, SegmentMagnet};
+use super::{ContactPoints, Plan, Scene, Segment, SegmentMagnet};
 use crate::lanes::Dimensions;
 use std::ops::Range;
 
@@ -76,7 +76,8 @@ impl Mesh {
                 }
             }
         }
-        if mesh.contact_points.is_empty() && scene.ground.is_some() {
+        let nodes = mesh.feet.is_empty() || scene.contact.points == ContactPoints::Nodes;
+        if nodes && scene.ground.is_some() {
             mesh.contact_points = mesh.points_below_nodes();
         }
         mesh

@@ -38,7 +38,7 @@ pub use body::{
     Body, Clamp, Magnet, Material, Relaxation, Rod, RodMagnet, Segment, SegmentMagnet, Segments,
     Worm,
 };
-pub use contact::Contact;
+pub use contact::{Contact, ContactPoints};
 pub use contact_point::{ContactPoint, Foot, Frame};
 #[doc(hidden)] // for the project's own tests
 pub use direction::Direction;

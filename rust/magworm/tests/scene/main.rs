@@ -1,5 +1,6 @@
 //! Every rule of a scene, with the exact sentence that a user reads.
 
+mod contact;
 mod drive;
 #[path = "../scene_example/mod.rs"]
 mod scene_example;

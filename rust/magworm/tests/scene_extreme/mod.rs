@@ -19,7 +19,10 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
             let solver = solver(&mut rest);
             let steps = rest.whole(1, 40) as f64;
             let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
-            let contact = contact(&mut world, &body, ground.is_some(), solver.integrator);
+            let mut contact = contact(&mut world, &body, ground.is_some(), solver.integrator);
+            if dimensions == 2 && world.between(0.0, 1.0) < 0.25 {
+                contact = Contact { points: ContactPoints::Nodes, ..Contact::default() };
+            }
             let motion = drive_motion(&mut world, dimensions);
             let mut scene = Scene {
                 name: "extreme".into(),
@@ -126,6 +129,7 @@ fn contact(dice: &mut Dice, body: &Body, on_ground: bool, integrator: Integrator
     let most_m = 0.5 * worm.foot_length_m.min(worm.foot_thickness_m).min(worm.width_m);
     let many = on_ground && worm.magnets > 1 && integrator != Integrator::Explicit;
     Contact {
+        points: ContactPoints::Feet,
         edge_radius_m: dice.one_of(&[0.0, 0.5 * most_m, most_m]),
         between_feet: many && dice.coin(),
     }

@@ -11,6 +11,7 @@ mod world;
 mod contact_block;
 mod contact_feet;
 mod contact_impact;
+mod contact_nodes;
 mod contact_robust;
 mod contact_rock;
 mod contact_rounded;

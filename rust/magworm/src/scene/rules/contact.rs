@@ -1,13 +1,26 @@
-//! Rules of contact: the edges of feet, and feet that touch each other.
+//! Rules of contact: points below nodes, the edges of feet, and feet that touch each other.
 
 use super::super::error::Problem;
 use super::super::schema::quantity;
-use super::super::{Integrator, Plan, Scene};
+use super::super::{ContactPoints, Integrator, Plan, Scene};
 use super::require;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    nodes(scene)?;
     edges(scene)?;
     between_feet(scene)
+}
+
+/// A node has no section that turns.
+fn nodes(scene: &Scene) -> Result<(), Problem> {
+    if scene.contact.points == ContactPoints::Feet {
+        return Ok(());
+    }
+    let plain =
+        scene.dimensions == 2 && scene.contact.edge_radius_m == 0.0 && !scene.contact.between_feet;
+    require(plain, "contact.points", "nodes".into(), || {
+        "feet in space, with contact.edge_radius_m and with contact.between_feet".into()
+    })
 }
 
 fn edges(scene: &Scene) -> Result<(), Problem> {
