@@ -13,6 +13,9 @@ from magworm_gym.sb3 import MagWormVecEnv
 # The stage belongs to the rig, not to the robot.
 STAGE_PARAMETERS = "drive_"
 
+TERMS = ("horizontal_force", "vertical_force", "torque", "mutual")
+"""Factors that switch terms of the magnetic force."""
+
 
 class VariedRobots(MagWormVecEnv):
     """Environments in which each has its own robot for good.
@@ -44,7 +47,8 @@ class VariedRobots(MagWormVecEnv):
                 scene.magnets, scene.removed, settings.num_envs, settings.removed_share
             )
         if settings.parameter_spread > 0.0:
-            names = self.worms.batch.parameter_names
+            # Terms of the magnetic force are no tolerances of a robot.
+            names = [name for name in self.worms.batch.parameter_names if name not in TERMS]
             robot_names = tuple(name for name in names if not name.startswith(STAGE_PARAMETERS))
             self._robots["parameters"] = factors_for_each(
                 robot_names, settings.num_envs, settings.parameter_spread, seed
