@@ -53,18 +53,26 @@ fn detect_point<D: Dim, I: Isa>(
         }
         Surface::Foot(foot) => meet_foot::<D, I>(isa, block, c, pair, &foot, [centre, place]),
     };
-    let touch = Touch::<D, I::F>::load(isa, &block.contact, c, pair);
     let inside = gap.lt(isa.splat(0.0));
     let time_s = I::F::select(inside, law.dissipation_time_s, isa.splat(step_s));
     let approach = (gap / time_s).max(isa.splat(-MAX_CORRECTIVE_SPEED_M_S));
     let [first, second] = pair.dofs();
-    let mut arc = arc_velocity::<D, I>(isa, &block.v, first, pair.rigid, centre, step_s);
-    if let Some(arm) = touch.surface_arm {
-        arc = arc - arc_velocity::<D, I>(isa, &block.v, second, true, arm, step_s);
-    }
-    let mut bias = touch.frame.components(arc);
+    let velocities = &block.v;
+    let [mut bias, u] = Touch::<D, I::F>::meet(
+        isa,
+        &mut block.contact,
+        c,
+        pair,
+        #[inline(always)]
+        |touch, _| {
+            let mut arc = arc_velocity::<D, I>(isa, velocities, first, pair.rigid, centre, step_s);
+            if let Some(arm) = touch.surface_arm {
+                arc = arc - arc_velocity::<D, I>(isa, velocities, second, true, arm, step_s);
+            }
+            [touch.frame.components(arc), touch.velocity(isa, velocities, [first, second])]
+        },
+    );
     bias.normal = bias.normal + approach;
-    let u = touch.velocity(isa, &block.v, pair.dofs());
     // A velocity that is not a number compares as false, so it makes no point active.
     let closed = !isa.load(&block.contact_mode[c]).eq(isa.splat(ContactMode::Open.code()));
     let active = closed | (u.normal + bias.normal).le(isa.splat(0.0));
@@ -160,9 +168,17 @@ fn arm_and_place<D: Dim, I: Isa>(
 #[inline(always)]
 pub(super) fn start_velocity<D: Dim, I: Isa>(
     isa: I,
-    block: &Block<I::Row>,
+    block: &mut Block<I::Row>,
     c: usize,
     pair: &ContactPair,
 ) -> ContactVector<D, I::F> {
-    Touch::load(isa, &block.contact, c, pair).velocity(isa, &block.v, pair.dofs())
+    let velocities = &block.v;
+    Touch::meet(
+        isa,
+        &mut block.contact,
+        c,
+        pair,
+        #[inline(always)]
+        |touch, _| touch.velocity(isa, velocities, pair.dofs()),
+    )
 }

@@ -74,16 +74,6 @@ impl<F: Real> ContactLaw<F> {
         }
     }
 
-    /// That of a pair: bodies that meet have no friction.
-    #[inline(always)]
-    pub(super) fn of(&self, pair: &ContactPair) -> Self {
-        if pair.surface_body.is_none() {
-            return *self;
-        }
-        let none = self.adhesion.splat(0.0);
-        Self { static_friction: none, dynamic_friction: none, adhesion: none, ..*self }
-    }
-
     /// F(λ_n) of Coulomb's law.
     #[inline(always)]
     pub(super) fn friction_bound(&self, coefficient: F, normal: F) -> F {
@@ -95,6 +85,31 @@ impl<F: Real> ContactLaw<F> {
     pub(super) fn friction_bound_slope(&self, coefficient: F, normal: F) -> F {
         let limited = (normal * ADHESION_LIMIT).lt(self.adhesion);
         F::select(limited, coefficient + ADHESION_LIMIT, coefficient)
+    }
+}
+
+/// The laws of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactLaws<F> {
+    /// That of the ground.
+    pub(super) ground: ContactLaw<F>,
+    /// That of bodies that meet: without friction.
+    bodies: ContactLaw<F>,
+}
+
+impl<F: Real> ContactLaws<F> {
+    #[inline(always)]
+    pub(super) fn new(ground: ContactLaw<F>) -> Self {
+        let none = ground.adhesion.splat(0.0);
+        let bodies =
+            ContactLaw { static_friction: none, dynamic_friction: none, adhesion: none, ..ground };
+        Self { ground, bodies }
+    }
+
+    /// That of a pair.
+    #[inline(always)]
+    pub(super) fn of(&self, pair: &ContactPair) -> &ContactLaw<F> {
+        if pair.surface_body.is_none() { &self.ground } else { &self.bodies }
     }
 }
 

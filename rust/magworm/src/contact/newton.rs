@@ -9,7 +9,7 @@
 //! changes along d are computed once a direction, and a trial costs no product with a matrix.
 
 use super::hessian::ContactHessian;
-use super::law::{ContactLaw, FrictionLaw, PointState};
+use super::law::{ContactLaw, ContactLaws, FrictionLaw, PointState};
 use super::line_search::LineSearch;
 use super::touch::Touch;
 use super::{ContactMode, ContactVector, Workspace, store_where};
@@ -74,8 +74,14 @@ pub(super) fn newton_direction<D: Dim, I: Isa>(
     let symmetric = model.system.kept_entries(&block.matrix);
     kept.multiply(isa, symmetric, &work.direction, &mut work.free_residual_change);
     for (c, pair) in model.contacts.iter().enumerate() {
-        let touch = Touch::<D, I::F>::load(isa, work, c, pair);
-        let change = touch.velocity(isa, &work.direction, pair.rows());
+        let change = Touch::<D, I::F>::meet(
+            isa,
+            work,
+            c,
+            pair,
+            #[inline(always)]
+            |touch, work| touch.velocity(isa, &work.direction, pair.rows()),
+        );
         change.store_where(isa, mask, &mut work.velocity_change, c);
     }
 }
@@ -85,20 +91,20 @@ pub(super) fn newton_direction<D: Dim, I: Isa>(
 pub(super) fn line_search_trial<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     friction: FrictionLaw,
     block: &mut Block<I::Row>,
     mask: I::M,
 ) -> TrialStatus<I::M> {
     let mut search = LineSearch::load(isa, &block.contact.line_search);
     let step = search.step;
-    let found = residual_at::<D, I>(isa, model, law, friction, block, step);
+    let found = residual_at::<D, I>(isa, model, laws, friction, block, step);
     let accepted = search.judge(found) & mask;
     search.store(isa, &mut block.contact.line_search);
     if accepted.any() {
         take_step(isa, &mut block.contact, step, accepted);
         for (c, pair) in model.contacts.iter().enumerate() {
-            linearise_point::<D, I>(isa, &law.of(pair), friction, block, c, accepted);
+            linearise_point::<D, I>(isa, laws.of(pair), friction, block, c, accepted);
         }
     }
     let converged = accepted & search.converged();
@@ -110,7 +116,7 @@ pub(super) fn line_search_trial<D: Dim, I: Isa>(
 fn residual_at<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     friction: FrictionLaw,
     block: &mut Block<I::Row>,
     step: I::F,
@@ -121,9 +127,17 @@ fn residual_at<D: Dim, I: Isa>(
         let velocity = ContactVector::<D, I::F>::load(isa, &work.velocity, c);
         let change = ContactVector::<D, I::F>::load(isa, &work.velocity_change, c);
         let point = load_point::<D, I>(isa, work, c);
-        let found = point.impulse(&law.of(pair), friction, velocity + change * step);
-        let touch = Touch::<D, I::F>::load(isa, work, c, pair);
-        touch.add_impulse(isa, &mut work.residual, pair.rows(), -found.impulse);
+        let found = point.impulse(laws.of(pair), friction, velocity + change * step);
+        Touch::<D, I::F>::meet(
+            isa,
+            work,
+            c,
+            pair,
+            #[inline(always)]
+            |touch, work| {
+                touch.add_impulse(isa, &mut work.residual, pair.rows(), -found.impulse);
+            },
+        );
     }
     residual_squared(isa, work)
 }

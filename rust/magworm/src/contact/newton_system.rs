@@ -44,9 +44,17 @@ fn add_contacts<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>
     let ghosts = band.half_bandwidth();
     for (c, pair) in model.contacts.iter().enumerate() {
         let hessian = ContactHessian::<D, I::F>::load(isa, &block.contact.hessian, c);
-        let touch = Touch::<D, I::F>::load(isa, &block.contact, c, pair);
-        let rhs = &mut block.contact.solution[ghosts..];
-        touch.add_impulse(isa, rhs, pair.rows(), hessian.impulse);
-        touch.add_hessian(isa, &mut block.contact.matrix, band, pair.rows(), &hessian);
+        Touch::<D, I::F>::meet(
+            isa,
+            &mut block.contact,
+            c,
+            pair,
+            #[inline(always)]
+            |touch, work| {
+                let rhs = &mut work.solution[ghosts..];
+                touch.add_impulse(isa, rhs, pair.rows(), hessian.impulse);
+                touch.add_hessian(isa, &mut work.matrix, band, pair.rows(), &hessian);
+            },
+        );
     }
 }

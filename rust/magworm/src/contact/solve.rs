@@ -8,7 +8,7 @@
 
 use super::contact_free::{any_active, try_contact_free_step};
 use super::initial::{cold_start, warm_start};
-use super::law::{ContactLaw, FrictionLaw};
+use super::law::{ContactLaw, ContactLaws, FrictionLaw};
 use super::line_search::LineSearch;
 use super::newton::{begin, line_search_trial, newton_direction};
 use super::newton_system::solve_linearised;
@@ -83,11 +83,11 @@ pub fn solve<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
         || any_active(isa, block, running),
     );
     if active || !try_contact_free_step::<D, I>(isa, model, block, running) {
-        let law = isa.vectorize(
+        let laws = isa.vectorize(
             #[inline(always)]
-            || ContactLaw::new(isa, parameters, model.step_s, block),
+            || ContactLaws::new(ContactLaw::new(isa, parameters, model.step_s, block)),
         );
-        solve_contact::<D, I>(isa, model, &law, block, running);
+        solve_contact::<D, I>(isa, model, &laws, block, running);
     }
     for (row, &unknown) in model.system.unknowns().iter().enumerate() {
         block.end_velocity[unknown] = block.contact.iterate[row];
@@ -98,7 +98,7 @@ pub fn solve<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
 fn solve_contact<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     running: I::M,
 ) {
@@ -106,18 +106,18 @@ fn solve_contact<D: Dim, I: Isa>(
         #[inline(always)]
         || {
             for (c, pair) in model.contacts.iter().enumerate() {
-                warm_start::<D, I>(isa, &law.of(pair), block, c, pair);
+                warm_start::<D, I>(isa, laws.of(pair), block, c, pair);
             }
             begin::<D, I>(isa, model, block);
         },
     );
-    let unconverged = run_strategies::<D, I>(isa, model, law, block, running, &STRATEGIES);
+    let unconverged = run_strategies::<D, I>(isa, model, laws, block, running, &STRATEGIES);
     let passes = isa.vectorize(
         #[inline(always)]
-        || stick_slip_transition::<D, I>(isa, model, law, block, running & !unconverged),
+        || stick_slip_transition::<D, I>(isa, model, laws, block, running & !unconverged),
     );
     if passes.any() {
-        run_strategies::<D, I>(isa, model, law, block, passes, &AFTER_TRANSITION);
+        run_strategies::<D, I>(isa, model, laws, block, passes, &AFTER_TRANSITION);
     }
 }
 
@@ -125,15 +125,15 @@ fn solve_contact<D: Dim, I: Isa>(
 fn run_strategies<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
     strategies: &[Strategy],
 ) -> I::M {
     let mut unconverged = mask;
     for &strategy in strategies {
-        start::<D, I>(isa, model, law, block, unconverged, strategy);
-        let rest = iterate::<D, I>(isa, model, law, block, unconverged, strategy.friction);
+        start::<D, I>(isa, model, laws, block, unconverged, strategy);
+        let rest = iterate::<D, I>(isa, model, laws, block, unconverged, strategy.friction);
         if strategy.friction != Friction::Lagged {
             unconverged = rest;
         }
@@ -148,7 +148,7 @@ fn run_strategies<D: Dim, I: Isa>(
 fn start<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
     strategy: Strategy,
@@ -160,12 +160,14 @@ fn start<D: Dim, I: Isa>(
             let work = &mut block.contact;
             for (c, pair) in model.contacts.iter().enumerate() {
                 match strategy.start {
-                    Start::Sticking => cold_start::<D, I>(isa, law, work, c, true, mask),
-                    Start::Frictionless => cold_start::<D, I>(isa, law, work, c, false, mask),
+                    Start::Sticking => cold_start::<D, I>(isa, laws.of(pair), work, c, true, mask),
+                    Start::Frictionless => {
+                        cold_start::<D, I>(isa, laws.of(pair), work, c, false, mask)
+                    }
                     Start::Warm | Start::Here => {}
                 }
                 if strategy.friction != Friction::Coulomb {
-                    lag_friction_bound(isa, &law.of(pair), work, c, D::AXES);
+                    lag_friction_bound(isa, laws.of(pair), work, c, D::AXES);
                 }
             }
             let mut search = LineSearch::load(isa, &work.line_search);
@@ -186,7 +188,7 @@ fn start<D: Dim, I: Isa>(
 fn iterate<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
     friction: Friction,
@@ -197,13 +199,13 @@ fn iterate<D: Dim, I: Isa>(
     for trial in 1..=trials {
         let mut status = isa.vectorize(
             #[inline(always)]
-            || line_search_trial::<D, I>(isa, model, law, friction.law(), block, unconverged),
+            || line_search_trial::<D, I>(isa, model, laws, friction.law(), block, unconverged),
         );
         block.counters.trials += 1;
         if friction == Friction::FixedPoint && status.converged.any() {
             status.converged = isa.vectorize(
                 #[inline(always)]
-                || relax_friction_bounds(isa, model, law, block, status.converged),
+                || relax_friction_bounds(isa, model, laws, block, status.converged),
             );
         }
         unconverged = unconverged & !status.converged;

@@ -9,7 +9,7 @@
 //! the step is solved again with the mean coefficient.
 
 use super::detect::start_velocity;
-use super::law::ContactLaw;
+use super::law::ContactLaws;
 use super::{ContactMode, ContactVector, store_where};
 use crate::lanes::{Dim, Isa, Real};
 use crate::model::Model;
@@ -20,10 +20,11 @@ use crate::state::Block;
 pub(super) fn stick_slip_transition<D: Dim, I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
 ) -> I::M {
+    let law = &laws.ground;
     let (limit, drop) = (law.transition_speed, law.static_friction - law.dynamic_friction);
     let mut any = limit.lt(limit);
     let on_ground =

@@ -110,10 +110,10 @@ impl<D: Dim, F: Real> ContactFrame<D, F> {
         self,
         [normal, first, second]: [ContactVector<D, F>; 3],
     ) -> [D::Vector<F>; 3] {
-        let columns = [normal, first, second].map(|column| self.vector(column));
         match self {
-            Self::Upright => [columns[1], columns[0], columns[2]],
+            Self::Upright => [self.vector(first), self.vector(normal), self.vector(second)],
             Self::Turned(axes) => {
+                let columns = [self.vector(normal), self.vector(first), self.vector(second)];
                 let mut world = [columns[0]; 3];
                 for axis in 0..D::AXES {
                     world[axis] = columns[0] * axes[0][axis];

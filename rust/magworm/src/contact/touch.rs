@@ -29,23 +29,30 @@ pub(super) struct Touch<D: Dim, F: Real> {
 }
 
 impl<D: Dim, F: Real> Touch<D, F> {
-    /// Reads that of contact `c`.
+    /// Reads that of contact `c` and goes on with it.
+    ///
+    /// What follows is compiled for ground and for bodies apart: chosen once a pair, the ground's reorders components alone. It
+    /// has to be inlined, or it is not compiled for the lanes.
     #[inline(always)]
-    pub(super) fn load<I: Isa<F = F>>(
+    pub(super) fn meet<I: Isa<F = F>, T>(
         isa: I,
-        work: &Workspace<I::Row>,
+        work: &mut Workspace<I::Row>,
         c: usize,
         pair: &ContactPair,
-    ) -> Self {
+        then: impl FnOnce(Self, &mut Workspace<I::Row>) -> T,
+    ) -> T {
         let arm = D::Vector::load(isa, &work.arm[D::AXES * c..]);
         let rigid = pair.rigid;
         let Some(body) = pair.surface_body else {
-            return Self { arm, surface_arm: None, frame: ContactFrame::Upright, rigid };
+            return then(
+                Self { arm, surface_arm: None, frame: ContactFrame::Upright, rigid },
+                work,
+            );
         };
         let first = D::AXES * body.place;
         let normal = D::Vector::load(isa, &work.surface_normal[first..]);
         let surface_arm = Some(D::Vector::load(isa, &work.surface_arm[first..]));
-        Self { arm, surface_arm, frame: ContactFrame::about(normal), rigid }
+        then(Self { arm, surface_arm, frame: ContactFrame::about(normal), rigid }, work)
     }
 
     /// J v, from velocities among which those of both bodies begin at `first`.
@@ -91,18 +98,19 @@ impl<D: Dim, F: Real> Touch<D, F> {
     ) {
         let columns = self.frame.matrix(hessian.columns());
         let stride = unsymmetric::row_length(band.half_bandwidth()) - 1;
-        let place = |row, column| [unsymmetric::at(band, row, column), stride];
         let (arm, rigid) = (self.arm, self.rigid);
-        add_block::<D, I>(isa, matrix, place(point, point), rigid, [arm, arm], &columns);
+        let place = [unsymmetric::at(band, point, point), stride];
+        add_block::<D, I>(isa, matrix, place, rigid, [arm, arm], &columns);
         if let Some(other) = self.surface_arm {
-            let against = columns.map(|column| -column);
+            let against = [-columns[0], -columns[1], -columns[2]];
             let blocks = [
                 ([surface, surface], [other, other], columns),
                 ([point, surface], [arm, other], against),
                 ([surface, point], [other, arm], against),
             ];
             for ([row, column], arms, columns) in blocks {
-                add_block::<D, I>(isa, matrix, place(row, column), true, arms, &columns);
+                let place = [unsymmetric::at(band, row, column), stride];
+                add_block::<D, I>(isa, matrix, place, true, arms, &columns);
             }
         }
     }

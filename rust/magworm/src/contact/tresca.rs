@@ -4,7 +4,7 @@
 //! have a solution and the line search finds it. Coulomb's law is the fixed point F = μ λ_n(F) + D_f Δt; it is approached by
 //! relaxation, F ← ½ (F + μ λ_n + D_f Δt). Where Coulomb's law has no solution, F stays as near to it as it came.
 
-use super::law::ContactLaw;
+use super::law::{ContactLaw, ContactLaws};
 use super::line_search::LineSearch;
 use super::{Workspace, store_where};
 use crate::lanes::{Isa, Real};
@@ -34,21 +34,21 @@ pub(super) fn lag_friction_bound<I: Isa>(
 pub(super) fn relax_friction_bounds<I: Isa>(
     isa: I,
     model: &Model,
-    law: &ContactLaw<I::F>,
+    laws: &ContactLaws<I::F>,
     block: &mut Block<I::Row>,
     mask: I::M,
 ) -> I::M {
     let zero = isa.splat(0.0);
     let (mut difference, mut total) = (zero, zero);
     for (c, pair) in model.contacts.iter().enumerate() {
-        let [coulomb, bound] = coulomb_and_tresca_bound(isa, &law.of(pair), block, c);
+        let [coulomb, bound] = coulomb_and_tresca_bound(isa, laws.of(pair), block, c);
         difference = difference.max((coulomb - bound).abs());
         total = total + coulomb;
     }
     let reached = difference.le(total * TOLERANCE);
     let moves = mask & !reached;
     for (c, pair) in model.contacts.iter().enumerate() {
-        let [coulomb, bound] = coulomb_and_tresca_bound(isa, &law.of(pair), block, c);
+        let [coulomb, bound] = coulomb_and_tresca_bound(isa, laws.of(pair), block, c);
         store_where(isa, moves, (coulomb + bound) * 0.5, &mut block.contact.friction_bound[c]);
     }
     let mut search = LineSearch::load(isa, &block.contact.line_search);
