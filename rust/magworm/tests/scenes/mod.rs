@@ -186,7 +186,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
-            ("drive.suspension", "{ mass_kg = 0.02, stiffness_n_m = 50 }"),
+            ("drive.suspension", "{ mass_kg = 0.02, stiffness_n_m = 200 }"),
         ],
     ),
     (
