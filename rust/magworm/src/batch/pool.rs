@@ -3,8 +3,11 @@
 use crate::interruption::{Interrupted, Interruption};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
+use std::io;
+use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
 
 /// Rows that are written between two looks at an interruption.
 const ROWS: usize = 64;
@@ -21,8 +24,23 @@ pub struct Pool {
 #[derive(Debug)]
 struct Running {
     owner: u32,
-    pool: Option<Arc<ThreadPool>>,
+    threads: Option<Threads>,
 }
+
+/// Threads that run. The last owner to let go of them waits for their end: a thread that has not ended keeps its
+/// memory, and the next batch's threads would ask for theirs beside it.
+#[derive(Clone, Debug)]
+pub struct Threads(Arc<Started>);
+
+/// Fields are dropped in their order: threads are told to end, then waited for.
+#[derive(Debug)]
+struct Started {
+    pool: ThreadPool,
+    _ends: Ends,
+}
+
+#[derive(Debug, Default)]
+struct Ends(Vec<JoinHandle<()>>);
 
 impl Pool {
     /// A pool of `threads` threads (none: one per core), started when it is first needed; one thread
@@ -30,7 +48,7 @@ impl Pool {
     pub fn new(threads: Option<usize>) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, |n| n.get());
         let threads = threads.unwrap_or_else(cores).max(1);
-        Self { threads, running: Mutex::new(Running { owner: std::process::id(), pool: None }) }
+        Self { threads, running: Mutex::new(Running { owner: std::process::id(), threads: None }) }
     }
 
     /// A pool whose threads run already and have taken the memory that threads take.
@@ -48,17 +66,16 @@ impl Pool {
     }
 
     /// The threads of this process; none where one thread does it all, or no thread can be started.
-    pub fn get(&self) -> Option<Arc<ThreadPool>> {
+    pub fn get(&self) -> Option<Threads> {
         if self.threads == 1 {
             return None;
         }
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         running.leave_inherited();
-        if running.pool.is_none() {
-            let builder = ThreadPoolBuilder::new().num_threads(self.threads);
-            running.pool = builder.build().ok().map(Arc::new);
+        if running.threads.is_none() {
+            running.threads = Threads::start(self.threads);
         }
-        running.pool.clone()
+        running.threads.clone()
     }
 
     /// Does the work on each piece of a table, which it is given with its index; on some of them where it is stopped.
@@ -105,7 +122,7 @@ impl Running {
     fn leave_inherited(&mut self) {
         if self.owner != std::process::id() {
             self.owner = std::process::id();
-            std::mem::forget(self.pool.take());
+            std::mem::forget(self.threads.take());
         }
     }
 }
@@ -113,5 +130,38 @@ impl Running {
 impl Drop for Running {
     fn drop(&mut self) {
         self.leave_inherited();
+    }
+}
+
+impl Threads {
+    /// None where they cannot be started.
+    fn start(count: usize) -> Option<Self> {
+        let mut ends = Ends::default();
+        let spawn = |thread| ends.spawn(thread);
+        let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(spawn).build().ok()?;
+        Some(Self(Arc::new(Started { pool, _ends: ends })))
+    }
+}
+
+impl Deref for Threads {
+    type Target = ThreadPool;
+
+    fn deref(&self) -> &ThreadPool {
+        &self.0.pool
+    }
+}
+
+impl Ends {
+    fn spawn(&mut self, thread: ThreadBuilder) -> io::Result<()> {
+        self.0.push(thread::Builder::new().spawn(|| thread.run())?);
+        Ok(())
+    }
+}
+
+impl Drop for Ends {
+    fn drop(&mut self) {
+        for end in self.0.drain(..) {
+            let _ = end.join();
+        }
     }
 }
