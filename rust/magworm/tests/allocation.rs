@@ -1,4 +1,4 @@
-//! Stepping allocates nothing. In a test binary of its own with a single test: the counter sees every thread.
+//! Stepping allocates nothing. In a program of its own, without libtest: the counter sees every thread.
 
 mod scenes;
 
@@ -82,9 +82,7 @@ const SCENES: [&str; 5] =
 /// is collected in further blocks, fewer than those.
 const QUEUE: usize = 2 * (2 * CONTROL_STEPS).div_ceil(63);
 
-#[test]
-fn stepping_allocates_nothing() {
-    // One thread first: threads of a pool that is gone still tidy up after themselves.
+fn main() {
     for (threads, most) in [(1, 0), (2, QUEUE)] {
         for scene in SCENES {
             for lanes in [LaneChoice::Wide, LaneChoice::Scalar] {
