@@ -95,8 +95,10 @@ impl<'a, I: Isa> Sources<'a, I> {
         let [x, y, z, yaw] = stage.place_in(isa.splat(0.0), |row| isa.load(&state[row]));
         let robot = block.centre_x_of_lanes(isa, model, stage.robot);
         let (layout, stage) = (&stage.layout, Vector([x, y, z]));
-        let terms =
-            magnetics.terms.map(|(term, acts)| isa.load(&block.factors[term as usize]) * acts);
+        let mut terms = [isa.splat(0.0); WRENCH];
+        for (factor, &(term, acts)) in terms.iter_mut().zip(&magnetics.terms) {
+            *factor = isa.load(&block.factors[term as usize]) * acts;
+        }
         Some(Self { layout, robot, stage, yaw: sin_cos(yaw), terms })
     }
 }
@@ -111,7 +113,8 @@ fn uniform_torque<D: Rod, I: Isa>(
 ) {
     let Some(field) = &model.program.uniform_field else { return };
     let moment = model.magnets[magnet].direction.in_space(&D::axes_before(isa, block, body));
-    let field_t = Vector(field.field_t.map(|component| isa.splat(component)));
+    let [x, y, z] = field.field_t;
+    let field_t = Vector([isa.splat(x), isa.splat(y), isa.splat(z)]);
     let remanence = isa.load(&block.remanence[magnet]);
     let torque = field.magnets[magnet].torque(field_t, moment, remanence);
     for k in 0..D::ROTATIONS {
@@ -181,7 +184,7 @@ fn spatial_wrench<I: Isa>(
     let (magnet, dof) = (&model.magnets[target], model.bodies[body].dof);
     let mut total = [isa.splat(0.0); WRENCH];
     let remanence = isa.load(&block.remanence[target]);
-    let frame = Space::axes_before(isa, block, body);
+    let [tangent, up, side] = Space::axes_before(isa, block, body);
     let arm = magnet
         .offset_m
         .map(|offset_m| Space::to_world(Vector::load(isa, &block.frame[9 * body..]), offset_m));
@@ -189,14 +192,16 @@ fn spatial_wrench<I: Isa>(
     if let Some(arm) = arm {
         place = place + arm;
     }
-    let axes = frame.map(|axis| turned(axis, cos, -sin));
+    let axes = [turned(tangent, cos, -sin), turned(up, cos, -sin), turned(side, cos, -sin)];
     for pair in &magnetics.pairs[target] {
         let source = &model.magnets[pair.source];
         let Carrier::Actuator { magnet: which, .. } = source.on else { continue };
         let [x, z] = layout.place(which, stage[0], stage[2], robot, sin, cos);
         let offset = turned(place - Vector([x, stage[1], z]), cos, -sin);
         let wrench = match &magnetics.models[pair.model] {
-            PairModel::SpatialCuboid(pair) => pair.wrench(offset.0, axes.map(|axis| axis.0)),
+            PairModel::SpatialCuboid(pair) => {
+                pair.wrench(offset.0, [axes[0].0, axes[1].0, axes[2].0])
+            }
             PairModel::SpatialDipole(pair) => {
                 pair.wrench(&offset.0, &magnet.direction.in_space(&axes).0)
             }

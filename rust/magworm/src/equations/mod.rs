@@ -47,10 +47,10 @@ pub fn springs<D: Rod, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>)
 fn diagonal_inertia<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) {
     let (count, matrix) = (model.coordinates.count, &mut *block.matrix);
     let (masses, speeds) = (&block.mass[..count], &block.v[..count]);
-    let rhs = &mut block.rhs[..count];
+    let (rhs, places) = (&mut block.rhs[..count], &model.diagonal[..count]);
     for dof in 0..count {
         let mass = isa.load(&masses[dof]);
-        isa.store(mass, &mut matrix[model.system.at(dof, dof)]);
+        isa.store(mass, &mut matrix[places[dof]]);
         isa.store(mass * isa.load(&speeds[dof]), &mut rhs[dof]);
     }
 }

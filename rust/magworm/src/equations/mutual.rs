@@ -3,6 +3,7 @@
 //! With d from the source to the target, force F and torque T on the target come from the pair at their distance; its body feels
 //! them about its middle, and the body of the source F' = −F and T' = −T − D × F, D from its middle to that of the other.
 
+use super::off_centre::{along, world};
 use crate::elastic::Rod;
 use crate::lanes::{Components, Isa, Mask, Plane, Real, Space, Vec3, Vector};
 use crate::magnetic::reaction;
@@ -27,8 +28,8 @@ pub fn mutual<D: Cuboids, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Ro
     let Some(mutual) = &model.program.mutual else { return };
     let factor = isa.load(&block.factors[Parameter::Mutual as usize]);
     for pair in &mutual.pairs {
-        let [source, target] =
-            [pair.source, pair.target].map(|magnet| Placed::<D, I>::of(isa, model, block, magnet));
+        let source = Placed::<D, I>::of(isa, model, block, pair.source);
+        let target = Placed::<D, I>::of(isa, model, block, pair.target);
         let strength = source.remanence * target.remanence * (factor * pair.share);
         let (force, torque) =
             wrench::<D, I>(isa, &mutual.kinds[pair.kind], [&source, &target], strength);
@@ -89,8 +90,8 @@ fn wrench<D: Cuboids, I: Isa>(
     let mut force = D::Vector::splat(isa.splat(0.0));
     let mut torque = D::Angular::splat(isa.splat(0.0));
     for near in &kind.near {
-        let [least_m2, beyond_m2] = near.range_m2.map(|m2| isa.splat(m2));
-        let here = square.ge(least_m2) & square.lt(beyond_m2);
+        let [least_m2, beyond_m2] = near.range_m2;
+        let here = square.ge(isa.splat(least_m2)) & square.lt(isa.splat(beyond_m2));
         if here.any() {
             let frames = [source.frame, target.frame];
             let (f, t) = D::wrench(&near.model, offset, frames, strength);
@@ -151,18 +152,25 @@ impl Cuboids for Space {
     fn wrench<F: Real>(
         model: &PairModel,
         offset: Vec3<F>,
-        frames: [Vector<F, 9>; 2],
+        [source, target]: [Vector<F, 9>; 2],
         strength: F,
     ) -> (Vec3<F>, Vec3<F>) {
-        let [source, target] = frames.map(|Vector([a, b, c, d, e, f, g, h, i])| {
-            [Vector([a, b, c]), Vector([d, e, f]), Vector([g, h, i])]
-        });
-        let inward = |v: Vec3<F>| source.map(|axis| axis.dot(v));
-        let outward = |x: F, y: F, z: F| (source[0] * x + source[1] * y + source[2] * z) * strength;
+        let (source, [tangent, up, side]) = (axes(source), axes(target));
         let [fx, fy, fz, tx, ty, tz] = match model {
-            PairModel::SpatialCuboid(pair) => pair.wrench(inward(offset), target.map(inward)),
+            PairModel::SpatialCuboid(pair) => {
+                let turned =
+                    [along(&source, tangent).0, along(&source, up).0, along(&source, side).0];
+                pair.wrench(along(&source, offset).0, turned)
+            }
             _ => [strength.splat(0.0); 6],
         };
-        (outward(fx, fy, fz), outward(tx, ty, tz))
+        let (force, torque) = (Vector([fx, fy, fz]), Vector([tx, ty, tz]));
+        (world(&source, force) * strength, world(&source, torque) * strength)
     }
+}
+
+/// Tangent, up and side of a frame.
+#[inline(always)]
+fn axes<F: Real>(Vector([a, b, c, d, e, f, g, h, i]): Vector<F, 9>) -> [Vec3<F>; 3] {
+    [Vector([a, b, c]), Vector([d, e, f]), Vector([g, h, i])]
 }

@@ -201,14 +201,14 @@ fn set<I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>, a: usize, b: us
 
 /// Σ a_k v_k: from the axes a to x, y, z.
 #[inline(always)]
-fn world<F: Real>(axes: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
+pub(super) fn world<F: Real>(axes: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
     axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2]
 }
 
 /// A v by the rows of A: components along axes, or the momentum that an inertia has.
 #[inline(always)]
-fn along<F: Real>(rows: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
-    Vector(rows.map(|row| row.dot(v)))
+pub(super) fn along<F: Real>(rows: &[Vec3<F>; 3], v: Vec3<F>) -> Vec3<F> {
+    Vector([rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)])
 }
 
 /// x of A x = b for a symmetric positive A, by L D Lᵀ; 0 where A is 0, as for a robot without mass.

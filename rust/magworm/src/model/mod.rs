@@ -63,6 +63,8 @@ pub struct Model {
     pub robots: Vec<Robot>,
     /// Shape of the equations of a step.
     pub system: Chain,
+    /// Place in the matrix of each unknown's own entry.
+    pub diagonal: Vec<usize>,
     /// Axial springs.
     pub stretch: Vec<Stretch>,
     /// Bending springs; in space they twist as well.
@@ -187,6 +189,7 @@ impl Model {
             thickness_m: mesh.elements.iter().map(|e| e.thickness_m).fold(0.0, f64::max),
             steps_per_control: (scene.control.step_s / step_s).round() as u32,
             step_s,
+            diagonal: (0..coordinates.count).map(|dof| system.at(dof, dof)).collect(),
             system,
             stretch,
             bend,
