@@ -72,6 +72,7 @@ SECTIONS = (
             "stopping_distance": "closed form",
             "axial_friction": "closed form, published test",
             "inelastic_landing": "closed form",
+            "rebound": "closed form, second law",
             "foot_rocks_on_its_edge": "closed form",
             "rounded_feet_roll": "closed form",
             "feet_stop_at_each_other": "conservation law, statics",

@@ -10,6 +10,7 @@
 
 use super::jacobian::arc_velocity;
 use super::law::ContactLaw;
+use super::rebound;
 use super::surface::{self, ContactFrame};
 use super::touch::Touch;
 use super::{ContactMode, ContactVector, Workspace};
@@ -29,6 +30,9 @@ pub fn detect<D: Dim, I: Isa>(isa: I, model: &Model, block: &mut Block<I::Row>) 
             let law = ContactLaw::new(isa, parameters, model.step_s, block);
             for (c, pair) in model.contacts.iter().enumerate() {
                 detect_point::<D, I>(isa, &law, block, c, pair, model.step_s);
+                if let Some(restitution) = &parameters.restitution {
+                    rebound::arrive::<D, I>(isa, restitution, block, c, pair);
+                }
             }
         },
     );

@@ -39,7 +39,7 @@ impl<D: Dim, F: Real> ContactHessian<D, F> {
         stick: F::Mask,
     ) -> Self {
         let (zero, w) = (u.normal.splat(0.0), law.effective_mass);
-        let normal = F::select(found.closed, w, zero);
+        let normal = F::select(found.closed, point.normal_mass, zero);
         let slope = law.friction_bound_slope(point.coefficient, found.impulse.normal);
         let sliding = found.sliding & !stick;
         let coupling = match friction {

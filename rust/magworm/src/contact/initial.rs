@@ -3,6 +3,7 @@
 use super::detect::start_velocity;
 use super::hessian::ContactHessian;
 use super::law::{ContactLaw, PointState};
+use super::rebound::normal_mass;
 use super::{ContactMode, ContactVector, Workspace};
 use crate::lanes::{Components, Dim, Isa, Real};
 use crate::model::ContactPair;
@@ -43,7 +44,12 @@ pub(super) fn warm_start<D: Dim, I: Isa>(
         D::Tangent::select(was_closed, spring, D::Tangent::splat(zero)),
     );
     let coefficient = I::F::select(slow, law.static_friction, law.dynamic_friction);
-    let point = PointState { warm_start: before, coefficient, bound: zero };
+    let point = PointState {
+        normal_mass: normal_mass(isa, law, &block.contact, c),
+        warm_start: before,
+        coefficient,
+        bound: zero,
+    };
     let bias = ContactVector::load(isa, &block.contact.bias, c);
     let hessian = start.hessian(&point, law, bias);
     let work = &mut block.contact;
@@ -65,16 +71,17 @@ pub(super) fn cold_start<D: Dim, I: Isa>(
 ) {
     let zero = isa.splat(0.0);
     let active = isa.load(&work.active[c]).gt(zero);
-    let normal = I::F::select(active, law.effective_mass, zero);
+    let normal = I::F::select(active, normal_mass(isa, law, work, c), zero);
+    let along = I::F::select(active, law.effective_mass, zero);
     let bias = ContactVector::<D, I::F>::load(isa, &work.bias, c);
     let none = D::Tangent::splat(zero);
     let mut impulse = ContactVector::<D, I::F>::new(-(normal * bias.normal), none);
     if sticks {
         let before = ContactVector::<D, I::F>::load(isa, &work.warm_start, c);
-        let stuck = before.tangent - bias.tangent * normal;
+        let stuck = before.tangent - bias.tangent * along;
         impulse.tangent = D::Tangent::select(active, stuck, none);
     }
-    let tangential = D::isotropic(if sticks { normal } else { zero });
+    let tangential = D::isotropic(if sticks { along } else { zero });
     let hessian = ContactHessian { impulse, normal, coupling: none, tangential };
     hessian.store_where(isa, mask, &mut work.hessian, c);
 }
@@ -100,8 +107,9 @@ impl<D: Dim, F: Real> Assumed<D, F> {
     ) -> ContactHessian<D, F> {
         let (zero, w) = (self.speed.splat(0.0), law.effective_mass);
         let along = D::direction(self.velocity);
-        let normal = F::select(self.closed, w, zero);
-        let pressed = F::select(self.closed, -(w * bias.normal), zero);
+        let normal = F::select(self.closed, point.normal_mass, zero);
+        let pressed = F::select(self.closed, -(point.normal_mass * bias.normal), zero);
+        let stiff = F::select(self.closed, w, zero);
         let adhesion = law.friction_bound(zero, point.warm_start.normal);
         let friction = F::select(self.closed, point.coefficient * pressed + adhesion, zero);
         let bound = law.friction_bound(point.coefficient, point.warm_start.normal);
@@ -116,7 +124,7 @@ impl<D: Dim, F: Real> Assumed<D, F> {
             normal,
             coupling: -(along * coupling),
             tangential: D::isotropic_less(
-                F::select(self.sticks, normal, viscosity),
+                F::select(self.sticks, stiff, viscosity),
                 F::select(self.sticks, zero, viscosity),
                 along,
             ),

@@ -116,6 +116,8 @@ impl<F: Real> ContactLaws<F> {
 /// What the law of a point needs beside its velocity.
 #[derive(Clone, Copy)]
 pub(super) struct PointState<D: Dim, F: Real> {
+    /// w along the normal.
+    pub(super) normal_mass: F,
     /// λ of the step before: λ_n, and along the tangents λ⁰.
     pub(super) warm_start: ContactVector<D, F>,
     /// μ.
@@ -149,7 +151,7 @@ impl<D: Dim, F: Real> PointState<D, F> {
         u: ContactVector<D, F>,
     ) -> ContactImpulse<D, F> {
         let (zero, one) = (u.normal.splat(0.0), u.normal.splat(1.0));
-        let augmented_normal = -(law.effective_mass * u.normal);
+        let augmented_normal = -(self.normal_mass * u.normal);
         let augmented = self.warm_start.tangent - u.tangent * law.effective_mass;
         let normal = augmented_normal.max(zero);
         let bound = match friction {

@@ -28,6 +28,8 @@
 //! Cundall & Strack 1979). μ is the paper's: μ_s where the point is no faster than v_d at the start of the step, μ_d
 //! beyond; a point that passes v_d within a step has the mean of both ([`stick_slip`]).
 //!
+//! A point that arrives may rebound ([`rebound`]): then û_n is e u_n⁻, and w along the normal that of a rigid point.
+//!
 //! u is the mean velocity of the point over the step, which moves on an arc: û holds ½ Δt ω × (ω × r).
 //!
 //! With rigid contact and friction as high as here a step may have several solutions or none (Painlevé's paradox), and
@@ -46,6 +48,7 @@ mod law;
 mod line_search;
 mod newton;
 mod newton_system;
+mod rebound;
 mod solve;
 mod stick_slip;
 mod surface;

@@ -11,6 +11,7 @@
 use super::hessian::ContactHessian;
 use super::law::{ContactLaw, ContactLaws, FrictionLaw, PointState};
 use super::line_search::LineSearch;
+use super::rebound::normal_mass;
 use super::touch::Touch;
 use super::{ContactMode, ContactVector, Workspace, store_where};
 use crate::lanes::{Components, Dim, Isa, Mask, Number, Real};
@@ -126,8 +127,9 @@ fn residual_at<D: Dim, I: Isa>(
     for (c, pair) in model.contacts.iter().enumerate() {
         let velocity = ContactVector::<D, I::F>::load(isa, &work.velocity, c);
         let change = ContactVector::<D, I::F>::load(isa, &work.velocity_change, c);
-        let point = load_point::<D, I>(isa, work, c);
-        let found = point.impulse(laws.of(pair), friction, velocity + change * step);
+        let law = laws.of(pair);
+        let point = load_point::<D, I>(isa, law, work, c);
+        let found = point.impulse(law, friction, velocity + change * step);
         Touch::<D, I::F>::meet(
             isa,
             work,
@@ -197,7 +199,7 @@ fn linearise_point<D: Dim, I: Isa>(
 ) {
     let u = ContactVector::<D, I::F>::load(isa, &block.contact.velocity, c);
     let bias = ContactVector::load(isa, &block.contact.bias, c);
-    let point = load_point::<D, I>(isa, &block.contact, c);
+    let point = load_point::<D, I>(isa, law, &block.contact, c);
     let found = point.impulse(law, friction, u);
     // A point whose friction turned round while it slid has passed the velocity at which it sticks.
     let directions = &mut block.contact.friction_direction[D::TANGENTS * c..];
@@ -216,8 +218,14 @@ fn linearise_point<D: Dim, I: Isa>(
 }
 
 #[inline(always)]
-fn load_point<D: Dim, I: Isa>(isa: I, work: &Workspace<I::Row>, c: usize) -> PointState<D, I::F> {
+pub(super) fn load_point<D: Dim, I: Isa>(
+    isa: I,
+    law: &ContactLaw<I::F>,
+    work: &Workspace<I::Row>,
+    c: usize,
+) -> PointState<D, I::F> {
     PointState {
+        normal_mass: normal_mass(isa, law, work, c),
         warm_start: ContactVector::load(isa, &work.warm_start, c),
         coefficient: isa.load(&work.friction_coefficient[c]),
         bound: isa.load(&work.friction_bound[c]),

@@ -12,6 +12,7 @@ use super::law::{ContactLaw, ContactLaws, FrictionLaw};
 use super::line_search::LineSearch;
 use super::newton::{begin, line_search_trial, newton_direction};
 use super::newton_system::solve_linearised;
+use super::rebound;
 use super::stick_slip::stick_slip_transition;
 use super::tresca::{lag_friction_bound, relax_friction_bounds};
 use crate::lanes::{Dim, Isa, Mask, Real};
@@ -68,8 +69,8 @@ const STRATEGIES: [Strategy; 6] = [
     Strategy { start: Start::Here, friction: Friction::FixedPoint },
 ];
 
-/// The strategies after a transition from static to dynamic friction.
-const AFTER_TRANSITION: [Strategy; 2] = [
+/// The strategies from a solution of other friction or other rebound.
+const FROM_HERE: [Strategy; 2] = [
     Strategy { start: Start::Here, friction: Friction::Coulomb },
     Strategy { start: Start::Here, friction: Friction::FixedPoint },
 ];
@@ -117,7 +118,31 @@ fn solve_contact<D: Dim, I: Isa>(
         || stick_slip_transition::<D, I>(isa, model, laws, block, running & !unconverged),
     );
     if passes.any() {
-        run_strategies::<D, I>(isa, model, laws, block, passes, &AFTER_TRANSITION);
+        run_strategies::<D, I>(isa, model, laws, block, passes, &FROM_HERE);
+    }
+    if model.restitutes() {
+        give_up_rebounds_that_gain::<D, I>(isa, model, laws, block, running);
+    }
+}
+
+/// Solves a step again without rebound where rebound gave energy.
+fn give_up_rebounds_that_gain<D: Dim, I: Isa>(
+    isa: I,
+    model: &Model,
+    laws: &ContactLaws<I::F>,
+    block: &mut Block<I::Row>,
+    running: I::M,
+) {
+    let gains = isa.vectorize(
+        #[inline(always)]
+        || rebound::gains_energy::<D, I>(isa, model, laws, block, running),
+    );
+    if gains.any() {
+        isa.vectorize(
+            #[inline(always)]
+            || rebound::give_up::<D, I>(isa, model, &mut block.contact, gains),
+        );
+        run_strategies::<D, I>(isa, model, laws, block, gains, &FROM_HERE);
     }
 }
 
@@ -193,7 +218,8 @@ fn iterate<D: Dim, I: Isa>(
     mask: I::M,
     friction: Friction,
 ) -> I::M {
-    let strategies = STRATEGIES.len() + AFTER_TRANSITION.len();
+    let again = if model.restitutes() { 2 } else { 1 };
+    let strategies = STRATEGIES.len() + again * FROM_HERE.len();
     let trials = model.scene.solver.contact_iterations.div_ceil(strategies);
     let mut unconverged = mask;
     for trial in 1..=trials {

@@ -2,7 +2,7 @@
 
 use super::coordinates::{Anchor, Coordinates};
 use crate::lanes::chain::Chain;
-use crate::scene::{ContactPoint, Foot, Frame, Ground, Mesh, Problem, Scene};
+use crate::scene::{ContactPoint, Foot, Frame, Ground, Mesh, Precision, Problem, Scene};
 
 /// Shape of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +70,38 @@ pub struct ContactParameters {
     pub stiffness_n_m: f64,
     /// Dissipation time τ: damping over stiffness [s].
     pub dissipation_time_s: f64,
+    /// Rebound; none where impact is inelastic.
+    pub restitution: Option<Restitution>,
+}
+
+/// Newton's law of impact, see `contact::rebound`.
+#[derive(Clone, Copy, Debug)]
+pub struct Restitution {
+    /// e.
+    pub coefficient: f64,
+    /// u_r [m/s].
+    pub from_m_s: f64,
+    /// Effective mass of a point that rebounds [kg].
+    pub mass_kg: f64,
+}
+
+impl Restitution {
+    fn new(scene: &Scene, body_kg: f64) -> Option<Self> {
+        let contact = &scene.contact;
+        // As rigid as the tolerance of Newton's iteration allows, whose residual holds rounding of this mass times a velocity.
+        let masses = match scene.solver.precision {
+            Precision::Double => 1e4,
+            Precision::Single => 1e2,
+        };
+        (contact.restitution > 0.0).then(|| Self {
+            coefficient: contact.restitution,
+            // What rests falls by this speed in a step; it must not be taken for something that arrives.
+            from_m_s: contact
+                .restitution_from_m_s
+                .max(2.0 * scene.gravity_m_s2 * scene.solver.step_s),
+            mass_kg: masses * body_kg,
+        })
+    }
 }
 
 /// Compression of the contact spring under the weight of the whole body, as a share of the body's thickness.
@@ -103,6 +135,7 @@ impl ContactParameters {
             adhesion_n: share * ground.adhesion_n,
             stiffness_n_m: share * stiffness_n_m.min(stiffest_n_m),
             dissipation_time_s,
+            restitution: Restitution::new(scene, mass_kg),
         }
     }
 }

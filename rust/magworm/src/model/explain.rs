@@ -1,6 +1,6 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
-use super::{Model, UniformTorque};
+use super::{ContactParameters, Model, UniformTorque};
 use crate::scene::{Curvature, MagnetModel, Precision, Suspension};
 use std::fmt::Write;
 
@@ -72,12 +72,13 @@ impl Model {
     fn explain_ground(&self) -> String {
         match &self.program.contact {
             Some(law) => format!(
-                "{} contact points{} that {} of the unknowns move, static friction {}, dynamic {}",
+                "{} contact points{} that {} of the unknowns move, static friction {}, dynamic {}{}",
                 self.contacts.len() - self.moving_surfaces(),
                 self.explain_edges(),
                 self.system.unknowns().len(),
                 law.static_friction,
-                law.dynamic_friction
+                law.dynamic_friction,
+                explain_rebound(law)
             ),
             None => "left out: the scene has no [ground]".to_string(),
         }
@@ -148,4 +149,10 @@ impl Model {
             (None, None) => "left out: the scene has no [field]".to_string(),
         }
     }
+}
+
+fn explain_rebound(law: &ContactParameters) -> String {
+    law.restitution.as_ref().map_or_else(String::new, |one| {
+        format!(", restitution {} from {} m/s", one.coefficient, one.from_m_s)
+    })
 }

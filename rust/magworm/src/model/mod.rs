@@ -20,7 +20,7 @@ mod shape;
 mod waves;
 
 pub use crate::scene::{ContactPoint, Element, Foot, Frame, Mesh};
-pub use contacts::{ContactPair, ContactParameters, Surface};
+pub use contacts::{ContactPair, ContactParameters, Restitution, Surface};
 pub use coordinates::{Anchor, Coordinates, MAX_STENCIL, Spin, Stencil, Tie, Unknowns};
 pub(crate) use fingerprint::Sum;
 pub use inertia::{MassPart, OffCentre};
@@ -229,6 +229,11 @@ impl Model {
     /// Number of contact pairs whose surface a body carries.
     pub fn moving_surfaces(&self) -> usize {
         self.contacts.iter().filter(|pair| pair.surface_body.is_some()).count()
+    }
+
+    /// Whether points that arrive at a surface may rebound.
+    pub fn restitutes(&self) -> bool {
+        self.program.contact.is_some_and(|law| law.restitution.is_some())
     }
 
     /// Number of nodes.

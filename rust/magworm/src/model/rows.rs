@@ -156,6 +156,8 @@ macro_rules! block_rows {
                 hessian: "N·s, kg", |m| hessian_rows(m.dimensions()) * m.contacts.len();
                 /// 1 where a point was closed before or would be inside the surface at the end of the step, shape [contacts].
                 active: "1", |m| m.contacts.len();
+                /// Effective mass along the normal of a point that rebounds, else 0, shape [contacts]; none without restitution.
+                impact_mass: "kg", |m| if m.restitutes() { m.contacts.len() } else { 0 };
                 /// Direction of ξ_t where the law was linearised last, shape [contacts × (D − 1)].
                 friction_direction: "1", |m| (m.dimensions() - 1) * m.contacts.len();
                 /// u, shape [contacts × D].

@@ -173,6 +173,8 @@ static CONTACT: Table = Table {
         optional("points", Kind::Choice(&["feet", "nodes"])),
         optional("edge_radius_m", real("m", 0.0, 0.25)),
         optional("between_feet", Kind::Flag),
+        optional("restitution", real("", 0.0, 1.0)),
+        optional("restitution_from_m_s", real("m/s", 0.0, 100.0)),
     ],
 };
 

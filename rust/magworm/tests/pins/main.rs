@@ -47,6 +47,8 @@ pins! { SCENES, keeps_its_bits:
     incline_in_space
     multipliers
     multipliers_in_space
+    rebound
+    rebound_in_space
     relaxing_rubber
     relaxing_rubber_in_space
     rolled_up

@@ -29,6 +29,19 @@ fn refuses_feet_that_touch_each_other_where_they_cannot() {
 }
 
 #[test]
+fn refuses_rebound_beyond_elastic_and_without_ground() {
+    let path = "contact.restitution";
+    refuses("example", path, "1.1", &format!("{path} is 1.1; allowed: 0 to 1"));
+    refuses("example", path, "-0.1", &format!("{path} is -0.1; allowed: 0 to 1"));
+    let from = "contact.restitution_from_m_s";
+    refuses("example", from, "-0.1", &format!("{from} is -0.1 m/s; allowed: 0 to 100 m/s"));
+    let edits = [("ground", None), (path, Some("0.5"))];
+    let sentence =
+        format!("{path} is 0.5; allowed: 0 without [ground], whose contact springs touch");
+    assert_eq!(edited("example", &edits).unwrap_err(), sentence);
+}
+
+#[test]
 fn refuses_nodes_with_what_only_feet_have() {
     let allowed =
         "allowed: feet in space, with contact.edge_radius_m and with contact.between_feet";

@@ -13,7 +13,7 @@ const RUBBER_KG_M3: f64 = 1070.0;
 /// Extreme scenes of 2 or 3 dimensions whose bodies have about `most_nodes` nodes (20 or more).
 pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scene> {
     let shape = dice(bends::NUMBERS);
-    (dice(16), dice(28), dice(32), dice(40), shape).prop_map(
+    (dice(16), dice(30), dice(32), dice(40), shape).prop_map(
         move |(mut body, mut world, mut rest, mut parts, mut shape)| {
             let (body, magnet) = robot_or_rod(&mut body, most_nodes);
             let solver = solver(&mut rest);
@@ -21,7 +21,12 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
             let ground = (rest.between(0.0, 1.0) < 0.8).then(|| ground(&mut world));
             let mut contact = contact(&mut world, &body, ground.is_some(), solver.integrator);
             if dimensions == 2 && world.between(0.0, 1.0) < 0.25 {
-                contact = Contact { points: ContactPoints::Nodes, ..Contact::default() };
+                contact = Contact {
+                    points: ContactPoints::Nodes,
+                    edge_radius_m: 0.0,
+                    between_feet: false,
+                    ..contact
+                };
             }
             let motion = drive_motion(&mut world, dimensions);
             let mut scene = Scene {
@@ -123,7 +128,7 @@ fn worm(dice: &mut Dice, magnets: usize, thickness_m: f64, width_m: f64, spare: 
     })
 }
 
-/// Feet with sharp edges or rounded ones, half of them such as do not pass through each other.
+/// Feet with sharp edges or rounded ones, half of them such as do not pass through each other; half of those on ground rebound.
 fn contact(dice: &mut Dice, body: &Body, on_ground: bool, integrator: Integrator) -> Contact {
     let Body::Worm(worm) = body else { return Contact::default() };
     let most_m = 0.5 * worm.foot_length_m.min(worm.foot_thickness_m).min(worm.width_m);
@@ -132,6 +137,8 @@ fn contact(dice: &mut Dice, body: &Body, on_ground: bool, integrator: Integrator
         points: ContactPoints::Feet,
         edge_radius_m: dice.one_of(&[0.0, 0.5 * most_m, most_m]),
         between_feet: many && dice.coin(),
+        restitution: if on_ground && dice.coin() { dice.one_of(&[0.5, 1.0]) } else { 0.0 },
+        restitution_from_m_s: dice.one_of(&[0.0, 0.05]),
     }
 }
 

@@ -24,7 +24,7 @@ pub fn scene(most_nodes: usize, dimensions: usize) -> impl Strategy<Value = Scen
         prop::option::of(dice(3).prop_map(move |mut dice| uniform_field(&mut dice, dimensions)));
     let time = dice(9).prop_map(|mut dice| (solver(&mut dice), dice));
     let shape = dice(bends::NUMBERS);
-    (body, drive, ground, field, time, dice(23), dice(22), ".{0,12}", shape)
+    (body, drive, ground, field, time, dice(26), dice(22), ".{0,12}", shape)
         .prop_map(
             move |(
                 (body, magnet),
@@ -138,7 +138,7 @@ fn ground(dice: &mut Dice) -> Ground {
 }
 
 /// Feet with sharp edges, or rounded as far as the smallest of them allows; that pass through each other or do not; in the
-/// plane also points below all nodes.
+/// plane also points below all nodes. Over ground they may rebound.
 fn contact(dice: &mut Dice, body: &Body, on_ground: bool, dimensions: usize) -> Contact {
     let shortest_m = |length_m: f64, thickness_m: f64, width_m: f64| {
         let in_plane_m = length_m.min(thickness_m);
@@ -159,13 +159,19 @@ fn contact(dice: &mut Dice, body: &Body, on_ground: bool, dimensions: usize) -> 
     };
     let rounded = dice.coin();
     let edge_radius_m = 0.5 * shortest_m * dice.between(0.0, 1.0);
+    let rebound = Contact {
+        restitution: if on_ground && dice.coin() { dice.between(0.0, 1.0) } else { 0.0 },
+        restitution_from_m_s: dice.decades(1e-6, 100.0),
+        ..Contact::default()
+    };
     if dimensions == 2 && dice.coin() {
-        return Contact { points: ContactPoints::Nodes, ..Contact::default() };
+        return Contact { points: ContactPoints::Nodes, ..rebound };
     }
     Contact {
         points: ContactPoints::Feet,
         edge_radius_m: if rounded { edge_radius_m } else { 0.0 },
         between_feet: on_ground && feet > 1 && dice.coin(),
+        ..rebound
     }
 }
 

@@ -56,6 +56,16 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
         "paper-3",
         &[("drive.suspension", "{ mass_kg = 0.05, stiffness_n_m = 200, damping_n_s_m = 0.5 }")],
     ),
+    (
+        "rebound",
+        "paper-3",
+        &[
+            ("contact.restitution", "0.7"),
+            ("contact.between_feet", "true"),
+            ("start.height_m", "0.01"),
+            ("start.angle_deg", "20"),
+        ],
+    ),
     ("uniform field", "paper-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
     (
         "dipoles with varied parameters",
@@ -178,6 +188,17 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("solver.integrator", "'euler'"),
             ("material.relaxation", "[{ ratio = 0.5, time_s = 0.02 }]"),
             ("reset.vary", "[{ parameter = 'stiffness', low = 0.5, high = 2.0 }]"),
+        ],
+    ),
+    (
+        "rebound in space",
+        "paper-3",
+        &[
+            ("dimensions", "3"),
+            ("drive.motion.lateral_reach_m", "0.02"),
+            ("contact.restitution", "0.7"),
+            ("start.height_m", "0.01"),
+            ("start.angle_deg", "20"),
         ],
     ),
     (

@@ -12,6 +12,7 @@ mod contact_block;
 mod contact_feet;
 mod contact_impact;
 mod contact_nodes;
+mod contact_rebound;
 mod contact_robust;
 mod contact_rock;
 mod contact_rounded;

@@ -1,4 +1,4 @@
-//! Rules of contact: points below nodes, the edges of feet, and feet that touch each other.
+//! Rules of contact: points below nodes, the edges of feet, feet that touch each other, and rebound.
 
 use super::super::error::Problem;
 use super::super::schema::quantity;
@@ -8,7 +8,8 @@ use super::require;
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     nodes(scene)?;
     edges(scene)?;
-    between_feet(scene)
+    between_feet(scene)?;
+    restitution(scene)
 }
 
 /// A node has no section that turns.
@@ -44,6 +45,14 @@ fn between_feet(scene: &Scene) -> Result<(), Problem> {
     allowed(!explicit, "false where solver.integrator is \"explicit\"")?;
     let feet = Plan::new(scene).segments.iter().filter(|segment| segment.foot).count();
     allowed(feet > 1, "false where the body has less than two feet")
+}
+
+fn restitution(scene: &Scene) -> Result<(), Problem> {
+    let e = scene.contact.restitution;
+    let possible = scene.ground.is_some() || e == 0.0;
+    require(possible, "contact.restitution", e.to_string(), || {
+        "0 without [ground], whose contact springs touch".into()
+    })
 }
 
 /// Half of the shortest edge of all feet; 0 without feet.
