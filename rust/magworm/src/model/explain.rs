@@ -1,7 +1,7 @@
 //! A compiled scene in words: which terms are in, which were left out, and why.
 
 use super::{ContactParameters, Model, UniformTorque};
-use crate::scene::{Curvature, MagnetModel, Precision, Suspension};
+use crate::scene::{Curvature, MagnetModel, Plan, Precision, Scene, Segment, Suspension};
 use std::fmt::Write;
 
 impl Model {
@@ -94,7 +94,11 @@ impl Model {
     fn explain_between_feet(&self) -> String {
         match self.moving_surfaces() {
             0 => "pass through each other: contact.between_feet is false".into(),
-            corners => format!("{corners} corners stop at neighbouring feet, without friction"),
+            corners => format!(
+                "{corners} corners stop at neighbouring feet, without friction; bridges let them pass, which they meet only \
+                where the inner side of one is compressed by more than {:.0} %",
+                100.0 * compression_where_feet_meet_bridges(&self.scene)
+            ),
         }
     }
 
@@ -149,6 +153,19 @@ impl Model {
             (None, None) => "left out: the scene has no [field]".to_string(),
         }
     }
+}
+
+/// Compression of the inner side of a bridge below which it cannot meet the foot that it begins at: ε = π/(4 Σ l/h).
+///
+/// Up to a right angle the sides of a bridge lead away from the face of that foot; a bridge of length l and thickness h whose inner
+/// side is compressed by ε turns by 2 ε l/h.
+fn compression_where_feet_meet_bridges(scene: &Scene) -> f64 {
+    let slenderness = |bridge: &[Segment]| -> f64 {
+        bridge.iter().map(|part| part.length_m / part.thickness_m.min(part.width_m)).sum()
+    };
+    let plan = Plan::new(scene);
+    let most = plan.segments.split(|part| part.foot).map(slenderness).fold(0.0, f64::max);
+    std::f64::consts::FRAC_PI_4 / most
 }
 
 fn explain_rebound(law: &ContactParameters) -> String {

@@ -162,3 +162,14 @@ fn validates_feet_stop_at_each_other() {
     }
     case.finish();
 }
+
+#[test]
+fn a_bridge_that_feet_pass_through_is_explained() {
+    let told = |bridge: &str| {
+        let edits = [("contact.between_feet", "true"), ("body.bridge_thickness_m", bridge)];
+        World::new("paper-3", &edits).model.explain()
+    };
+    // π/4 times thickness over length, 6 mm.
+    assert!(told("0.004").contains("16 corners stop at") && told("0.004").contains(" 52 %"));
+    assert!(told("0.001").contains(" 13 %"));
+}
