@@ -167,22 +167,3 @@ fn arm_and_place<D: Dim, I: Isa>(
         }
     }
 }
-
-/// Velocity of a contact point at the start of the step, without its bias.
-#[inline(always)]
-pub(super) fn start_velocity<D: Dim, I: Isa>(
-    isa: I,
-    block: &mut Block<I::Row>,
-    c: usize,
-    pair: &ContactPair,
-) -> ContactVector<D, I::F> {
-    let velocities = &block.v;
-    Touch::meet(
-        isa,
-        &mut block.contact,
-        c,
-        pair,
-        #[inline(always)]
-        |touch, _| touch.velocity(isa, velocities, pair.dofs()),
-    )
-}

@@ -1,9 +1,9 @@
 //! Where Newton's iteration starts: every point in an assumed mode, with the linearised law of that mode.
 
-use super::detect::start_velocity;
 use super::hessian::ContactHessian;
 use super::law::{ContactLaw, PointState};
-use super::rebound::normal_mass;
+use super::newton::normal_mass;
+use super::touch::start_velocity;
 use super::{ContactMode, ContactVector, Workspace};
 use crate::lanes::{Components, Dim, Isa, Real};
 use crate::model::ContactPair;

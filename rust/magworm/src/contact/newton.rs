@@ -11,7 +11,6 @@
 use super::hessian::ContactHessian;
 use super::law::{ContactLaw, ContactLaws, FrictionLaw, PointState};
 use super::line_search::LineSearch;
-use super::rebound::normal_mass;
 use super::touch::Touch;
 use super::{ContactMode, ContactVector, Workspace, store_where};
 use crate::lanes::{Components, Dim, Isa, Mask, Number, Real};
@@ -229,5 +228,19 @@ pub(super) fn load_point<D: Dim, I: Isa>(
         warm_start: ContactVector::load(isa, &work.warm_start, c),
         coefficient: isa.load(&work.friction_coefficient[c]),
         bound: isa.load(&work.friction_bound[c]),
+    }
+}
+
+/// Effective mass of a point along the normal [kg].
+#[inline(always)]
+pub(super) fn normal_mass<I: Isa>(
+    isa: I,
+    law: &ContactLaw<I::F>,
+    work: &Workspace<I::Row>,
+    c: usize,
+) -> I::F {
+    match work.impact_mass.get(c) {
+        Some(row) => law.effective_mass.max(isa.load(row)),
+        None => law.effective_mass,
     }
 }

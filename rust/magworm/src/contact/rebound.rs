@@ -13,9 +13,9 @@
 //! With friction, and where only some points arrive, Newton's law may give energy (Kane & Levinson 1985). A step in which it
 //! would is solved again without rebound.
 
-use super::detect::start_velocity;
-use super::law::{ContactLaw, ContactLaws, FrictionLaw};
+use super::law::{ContactLaws, FrictionLaw};
 use super::newton::load_point;
+use super::touch::start_velocity;
 use super::{ContactVector, Workspace, store_where};
 use crate::lanes::{Components, Dim, Isa, Real};
 use crate::model::{ContactPair, Model, Restitution};
@@ -39,20 +39,6 @@ pub(super) fn arrive<D: Dim, I: Isa>(
     store_where(isa, arrives, u * restitution.coefficient, bias);
     let mass = I::F::select(arrives, isa.splat(restitution.mass_kg), zero);
     isa.store(mass, &mut work.impact_mass[c]);
-}
-
-/// Effective mass of a point along the normal [kg].
-#[inline(always)]
-pub(super) fn normal_mass<I: Isa>(
-    isa: I,
-    law: &ContactLaw<I::F>,
-    work: &Workspace<I::Row>,
-    c: usize,
-) -> I::F {
-    match work.impact_mass.get(c) {
-        Some(row) => law.effective_mass.max(isa.load(row)),
-        None => law.effective_mass,
-    }
 }
 
 /// The lanes of a mask in which impact does positive work: Σ ½ λ·(u⁻ + u⁺), less what the spring of a point gives that was

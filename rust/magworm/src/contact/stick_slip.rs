@@ -8,8 +8,8 @@
 //! would be held by μ_s for the whole step. Its speed grows evenly, so it is below v_d for the share of the step above, and
 //! the step is solved again with the mean coefficient.
 
-use super::detect::start_velocity;
 use super::law::ContactLaws;
+use super::touch::start_velocity;
 use super::{ContactMode, ContactVector, store_where};
 use crate::lanes::{Dim, Isa, Real};
 use crate::model::Model;

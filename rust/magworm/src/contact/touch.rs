@@ -14,6 +14,7 @@ use super::{ContactVector, Workspace};
 use crate::lanes::banded::Band;
 use crate::lanes::{Components, Dim, Isa, Real, unsymmetric};
 use crate::model::ContactPair;
+use crate::state::Block;
 
 /// Arms and contact frame of a pair.
 #[derive(Clone, Copy)]
@@ -114,4 +115,23 @@ impl<D: Dim, F: Real> Touch<D, F> {
             }
         }
     }
+}
+
+/// Velocity of a contact point at the start of the step, without its bias.
+#[inline(always)]
+pub(super) fn start_velocity<D: Dim, I: Isa>(
+    isa: I,
+    block: &mut Block<I::Row>,
+    c: usize,
+    pair: &ContactPair,
+) -> ContactVector<D, I::F> {
+    let velocities = &block.v;
+    Touch::meet(
+        isa,
+        &mut block.contact,
+        c,
+        pair,
+        #[inline(always)]
+        |touch, _| touch.velocity(isa, velocities, pair.dofs()),
+    )
 }
