@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 from magworm_gym import Scene
 from magworm_gym.identification import read_problem
 from magworm_gym.identification.evaluation import Evaluator
-from studies.identification import joint, judge
+from studies.identification import joint, judge, settle_presets
 
 PROBLEM = """
 scene = "paper-3"
@@ -62,7 +62,21 @@ def problem_file(tmp_path):
 def test_blind_starts_are_run_once_and_give_a_page_and_an_ensemble(tmp_path, monkeypatch, problem_file):
     runs, page, robots = tmp_path / "runs", tmp_path / "joint.md", tmp_path / "robots"
     words = ["--problems", problem_file, "--out", runs, "--page", page, "--ensemble", robots]
-    words += ["--seeds", 2, "--crossed", 1, "--scatter", 9]
+    words += ["--conditions", tmp_path / "ensemble.json"]
+    words += [
+        "--seeds",
+        2,
+        "--crossed",
+        1,
+        "--restarts",
+        2,
+        "--generations",
+        3,
+        "--scatter",
+        9,
+        "--rounds",
+        1,
+    ]
     monkeypatch.setattr(sys, "argv", ["joint.py", *map(str, words)])
     joint.main()
     assert sorted(folder.name for folder in runs.iterdir()) == [
@@ -94,3 +108,22 @@ def test_a_scene_is_judged_by_its_own_values(tmp_path, problem_file):
     outcomes = Evaluator(problem).outcomes(unit)
     assert f"loss {sum(outcome.loss for outcome in outcomes):.4g}" in told
     assert all(f"| {outcome.model:.4g} |" in told for outcome in outcomes)
+
+
+def test_small_losses_fit_whatever_the_least_is(problem_file):
+    problem = read_problem(problem_file, {"fits_below": 0.5})
+    assert problem.limit(0.01) == 0.5
+    assert problem.limit(1.0) == 3.0
+
+
+def test_presets_are_settled_among_robots_that_fit_and_lie_apart(problem_file):
+    problem = read_problem(problem_file, {"fits_below": 0.5})
+    units = np.array([[0.5, 0.5, 0.5], [0.5, 0.5, 0.6], [0.1, 0.9, 0.5], [0.9, 0.1, 0.5]])
+    chosen = settle_presets.spread(problem, units, np.array([0.2, 0.3, 0.4, 0.9]), 3)
+    assert chosen.tolist() == [units[0].tolist(), units[2].tolist(), units[1].tolist()]
+    kept = settle_presets.others(problem, units, np.array([0.2, 0.3, 0.4, 0.9]), 1)
+    assert [each["loss"] for each in kept] == [0.2, 0.4, 0.9]
+    line = settle_presets.marked(
+        "damping_time_s", 0.0465, "damping_time_s = 0.002 # effective: why", "identified"
+    )
+    assert line.split() == ["damping_time_s", "=", "0.0465", "#", "effective:", "why"]

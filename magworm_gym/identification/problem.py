@@ -82,7 +82,7 @@ class Problem:
     def limit(self, loss: float) -> float:
         """Loss up to which a candidate fits about as well as one with the least loss [1]."""
         if self.settings.fits_within is not None:
-            return self.settings.fits_within * loss
+            return max(self.settings.fits_within * loss, self.settings.fits_below)
         return threshold(loss, self.measurements, len(self.space))
 
 

@@ -23,6 +23,7 @@ class SearchSettings:
         finest_step: An evolution ends where its standard deviations fall below [1].
         fits_within: Times the least loss that a candidate may have and still fit about as well [1]; None for
             a likelihood interval.
+        fits_below: Loss that fits whatever the least one is, beside ``fits_within`` [1].
         seed: Seed of everything random.
     """
 
@@ -37,6 +38,7 @@ class SearchSettings:
     first_step: float = 0.15
     finest_step: float = 2e-4
     fits_within: float | None = None
+    fits_below: float = 0.0
     seed: int = 0
 
 
@@ -59,6 +61,7 @@ def read_settings(table: Table) -> SearchSettings:
         first_step=table.number("first_step", default.first_step, low=1e-3, high=1.0),
         finest_step=table.number("finest_step", default.finest_step, low=1e-9, high=0.1),
         fits_within=table.number("fits_within", low=1.0, high=1e3) if table.has("fits_within") else None,
+        fits_below=table.number("fits_below", default.fits_below, low=0.0, high=1e6),
         seed=table.whole("seed", default.seed, low=0, high=2**31 - 1),
     )
     table.done()

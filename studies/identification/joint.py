@@ -5,14 +5,16 @@
 runs, for each problem, a search from a blind start for each seed, and for each group of claims a search
 without it; a run that was stopped goes on, one that is done is kept. From them it writes
 
-- docs/identification/joint.md: claims met by each run, each group judged by robots that were not fitted to
-  it, intervals of the parameters;
-- studies/identification/ensemble/: from each blind start a robot within 1.3 times the least loss that meets
-  the same claims as the best, as unlike the others as it can be.
+- docs/identification/joint.md: claims met by each run, what each claim that stays unmet would cost, each
+  group judged by robots that were not fitted to it, intervals of the parameters;
+- rust/magworm/scenes/ensemble/: from each blind start a robot that fits about as well as the best and meets
+  the same claims, as unlike the others as it can be, and studies/identification/ensemble.json: the
+  conditions that they were chosen by.
 """
 
 import argparse
 import json
+import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -21,6 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym import Scene
 from magworm_gym.identification import Problem, identify, read_problem, write_results
 from magworm_gym.identification.claims import Claim
 from magworm_gym.identification.ensemble import alike, coverage, farthest_first
@@ -28,17 +31,22 @@ from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.identify import base_with
 from magworm_gym.identification.scene_file import commented_scene
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
 Floats = NDArray[np.float64]
 
 HERE = Path(__file__).parent
-PAGE = HERE.parents[1] / "docs/identification/joint.md"
-ENSEMBLE = HERE / "ensemble"
+ROOT = HERE.parents[1]
+PAGE = ROOT / "docs/identification/joint.md"
+ENSEMBLE = ROOT / "rust/magworm/scenes/ensemble"
+CONDITIONS = HERE / "ensemble.json"
 
-SETTINGS = ("restarts", "generations", "scatter", "rounds")
-"""Settings of the search that can be given."""
+SETTINGS = {"restarts": 12, "generations": 120, "scatter": 2000, "rounds": 60}
+"""Settings of the search from a blind start; each can be given."""
 
-WITHIN = 1.3
-"""Times the least loss of all runs that a robot of the ensemble may have."""
 TRIES = 40
 """Candidates of a run that are looked at to find its robot."""
 COVERED = 0.5
@@ -76,6 +84,10 @@ class Search:
         """How many of these targets its best candidate meets."""
         return sum(each["met"] for each in self.report["targets"] if each["name"] in names)
 
+    def missed(self) -> list[str]:
+        """Fitted targets that its best candidate misses."""
+        return [each["name"] for each in self.report["targets"] if each["fitted"] and not each["met"]]
+
 
 def main() -> None:
     """Runs what is missing and writes the page and the ensemble."""
@@ -86,13 +98,13 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("runs/joint"), help="folder of the runs")
     parser.add_argument("--seeds", type=int, default=8, help="blind starts of each problem")
     parser.add_argument("--crossed", type=int, default=2, help="blind starts without each group of claims")
-    for setting in SETTINGS:
-        parser.add_argument(f"--{setting}", type=int, help="in place of what the problem file says")
+    for setting, value in SETTINGS.items():
+        parser.add_argument(f"--{setting}", type=int, default=value, help=f"of the search ({value})")
     parser.add_argument("--page", type=Path, default=PAGE)
     parser.add_argument("--ensemble", type=Path, default=ENSEMBLE)
+    parser.add_argument("--conditions", type=Path, default=CONDITIONS)
     arguments = parser.parse_args()
-    given = {key: value for key in SETTINGS if (value := getattr(arguments, key)) is not None}
-    run = partial(finished, arguments.out, given)
+    run = partial(finished, arguments.out, {key: getattr(arguments, key) for key in SETTINGS})
     blind, crossed = [], []
     for problem in arguments.problems:
         blind += [run(problem, seed) for seed in range(arguments.seeds)]
@@ -100,6 +112,7 @@ def main() -> None:
             crossed += [run(problem, seed, group) for seed in range(arguments.crossed)]
     chosen = ensemble(blind)
     write_ensemble(arguments.ensemble, blind, chosen)
+    arguments.conditions.write_text(json.dumps(conditions(blind), indent=1) + "\n", encoding="utf-8")
     arguments.page.parent.mkdir(parents=True, exist_ok=True)
     arguments.page.write_text(page(blind, crossed, chosen), encoding="utf-8")
 
@@ -130,6 +143,12 @@ def shared(blind: list[Search]) -> list[str]:
     return [label for label in labels[0] if all(label in each for each in labels)]
 
 
+def limit(blind: list[Search]) -> float:
+    """Loss up to which a robot fits about as well as the best of all runs [1]."""
+    best = min(blind, key=lambda run: run.loss)
+    return best.problem.limit(best.loss)
+
+
 def pool(run: Search, limit: float, labels: list[str]) -> Floats:
     """Shared parameters (K, P) of the candidates of a run within a limit, as fitted numbers, best first."""
     space = run.problem.space
@@ -140,8 +159,8 @@ def pool(run: Search, limit: float, labels: list[str]) -> Floats:
 
 def ensemble(blind: list[Search]) -> list[int | None]:
     """Place of each run's robot among its candidates."""
-    limit, labels = WITHIN * min(run.loss for run in blind), shared(blind)
-    pools = [pool(run, limit, labels) for run in blind]
+    labels = shared(blind)
+    pools = [pool(run, limit(blind), labels) for run in blind]
     together = np.vstack(pools)
     wanted = claims_met(min(blind, key=lambda run: run.loss), 0)
     return farthest_first(
@@ -159,18 +178,37 @@ def claims_met(run: Search, place: int) -> set[str]:
 
 
 def write_ensemble(folder: Path, blind: list[Search], chosen: list[int | None]) -> None:
-    """Writes the robots as scenes with three magnets."""
+    """Writes the robots as scenes with three magnets, in place of those that were there."""
     folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("*.toml"):
+        old.unlink()
     members = [(run, place) for run, place in zip(blind, chosen, strict=True) if place is not None]
     for number, (run, place) in enumerate(members, start=1):
-        space = run.problem.space
-        values = space.scene_values(run.units[place])
-        scene, left_out = base_with(run.problem.base, values)
-        origins = {parameter.path: "identified" for parameter in space.parameters}
-        head = [f"Robot {number} of the ensemble: {run.name}, loss {run.losses[place]:.4g}."]
-        head += [f"Identified too: {path} = {values[path]:.6g}" for path in left_out]
-        text = commented_scene(scene, origins, f"as in {run.problem.base_name}", head)
-        (folder / f"{number:02}.toml").write_text(text, encoding="utf-8")
+        name = run.problem.base_name
+        origins = {parameter.path: "identified" for parameter in run.problem.space.parameters}
+        head = [f"Robot {number} of the ensemble of {name}: {run.name}, loss {run.losses[place]:.4g}."]
+        text = commented_scene(robot(run, place), origins, f"as in {name}", head)
+        (folder / f"{name}-{number}.toml").write_text(text, encoding="utf-8")
+
+
+def robot(run: Search, place: int) -> Scene:
+    """A candidate with the drive and the resets of the preset that its problem began with."""
+    preset = tomllib.loads(Scene.preset(run.problem.base_name).to_toml())
+    scene, _ = base_with(run.problem.base, run.problem.space.scene_values(run.units[place]))
+    return scene.with_values({"drive.motion": preset["drive"]["motion"], "reset": preset["reset"]})
+
+
+def conditions(blind: list[Search]) -> dict[str, Any]:
+    """What every robot of the ensemble meets: loss, claims, and the intervals that they are to reach over."""
+    labels = shared(blind)
+    together = np.vstack([pool(run, limit(blind), labels) for run in blind])
+    columns = zip(labels, together.min(axis=0).tolist(), together.max(axis=0).tolist(), strict=True)
+    best = min(blind, key=lambda run: run.loss)
+    return {
+        "loss": limit(blind),
+        "claims": sorted(claims_met(best, 0)),
+        "intervals": {label: [low, high] for label, low, high in columns},
+    }
 
 
 def page(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -> str:
@@ -178,6 +216,7 @@ def page(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -
     parts = [
         "# One robot for all figures of the paper",
         *claims_section(blind),
+        *unmet_section(blind),
         *crossed_section(crossed),
         *ensemble_section(blind, chosen),
     ]
@@ -209,6 +248,31 @@ def claims_section(blind: list[Search]) -> list[str]:
     return rows
 
 
+def unmet_section(blind: list[Search]) -> list[str]:
+    """What each claim that the best run leaves unmet would cost, by the best candidate that meets it."""
+    best = min(blind, key=lambda run: run.loss)
+    count = sum(len(run.losses) for run in blind)
+    rows = ["", "## What stays unmet", "", f"Candidates of all blind starts: {count}.", ""]
+    rows += ["| claim | best candidate that meets it | its loss | it misses |", "|---|---|---|---|"]
+    for target in best.report["targets"]:
+        if target["met"] or not target["fitted"]:
+            continue
+        meeting = [
+            (float(each["loss"]), run.name, ", ".join(each["missed"]) or "nothing")
+            for run in blind
+            for each in run.report["alternatives"]
+            if each["target"] == target["name"] and each["values"] is not None
+        ]
+        meeting += [
+            (run.loss, run.name, ", ".join(run.missed()) or "nothing")
+            for run in blind
+            if run.met([target["name"]])
+        ]
+        loss, name, missed = min(meeting, default=(np.inf, "none", "–"))
+        rows.append(f"| {target['name']} | {name} | {loss:.4g} | {missed} |")
+    return rows
+
+
 def crossed_section(crossed: list[Search]) -> list[str]:
     """How well each group of claims is met by robots that were not fitted to it."""
     rows = ["", "## Cross-validation", "", "| left out | run | loss of the rest | met of the group |"]
@@ -222,15 +286,15 @@ def crossed_section(crossed: list[Search]) -> list[str]:
 
 def ensemble_section(blind: list[Search], chosen: list[int | None]) -> list[str]:
     """The intervals of the parameters and how much of them the ensemble reaches over."""
-    limit, labels = WITHIN * min(run.loss for run in blind), shared(blind)
-    pools = [pool(run, limit, labels) for run in blind]
+    labels = shared(blind)
+    pools = [pool(run, limit(blind), labels) for run in blind]
     together = np.vstack(pools)
     low, high = together.min(axis=0), together.max(axis=0)
     robots = np.array([p[k] for p, k in zip(pools, chosen, strict=True) if k is not None])
     reached = coverage(robots, low, high)
     rows = ["", "## Ensemble", "", f"Robots: {len(robots)}, from as many blind starts.", ""]
     rows += [
-        f"| parameter | within {WITHIN:g} × the least loss | the ensemble reaches over |",
+        f"| parameter | loss of at most {limit(blind):.3g} | the ensemble reaches over |",
         "|---|---|---|",
     ]
     for at, label in enumerate(labels):

@@ -1,12 +1,13 @@
 """Settles the values of the presets: of the candidates that fit, the one that depends least on step and mesh.
 
 An identification leaves many candidates that meet the targets about as well. Stick and slip make some of them
-change their stride when step or mesh are refined. This takes the best candidates of a run of ``magworm
-identify``, measures them again with the steps and meshes of :data:`REFINEMENTS`, and writes the values of
-the one with the least loss of all of them together into the preset files.
+change their stride when step or mesh are refined. This takes candidates of a run of ``magworm identify`` that
+fit about as well as the best, spread as far as they reach, measures them again with the steps and meshes of
+:data:`REFINEMENTS`, and writes the values of one into the preset files: of those that miss the fewest targets
+with all of them together, the one with the least loss.
 
-    magworm identify studies/identification/paper-3.toml --out runs/identify/paper-3
-    python studies/identification/settle_presets.py paper-3
+    magworm identify studies/identification/paper-3-simulation.toml --out runs/identify/paper-3-simulation
+    python studies/identification/settle_presets.py paper-3-simulation
 
 The report of the run goes to docs/identification/. ``make identify`` does all of it for all presets.
 """
@@ -23,27 +24,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.identification import Problem, read_problem
+from magworm_gym.identification.ensemble import distances
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.experiment import Experiment
 from magworm_gym.identification.sweep import Sweep
 
 R = TypeVar("R", Experiment, Sweep)
+Floats = NDArray[np.float64]
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 SCENES = ROOT / "rust/magworm/scenes"
 REPORTS = ROOT / "docs/identification"
-RESTARTS = HERE / "restarts"
+OTHERS = HERE / "others"
+OTHER_FITS = 8
+"""How many robots that fit about as well are kept for other studies."""
 
 PRESETS = {
-    "paper-joint": ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125", "paper-3-experiment"),
-    "paper-3": ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125", "paper-3-experiment"),
-    "paper-3-experiment": ("paper-3-experiment",),
+    "paper-joint": [
+        *(SCENES / f"{name}.toml" for name in ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125")),
+        ROOT / "training/scenes/turn-3-pair.toml",
+    ],
+    "paper-3-simulation": [SCENES / "paper-3-simulation.toml"],
 }
-"""Name of a problem → presets that take its values; the second changes some of the first's."""
+"""Name of a problem → scenes that take its values."""
 
-MARKS = {"paper-joint": "identified", "paper-3": "identified", "paper-3-experiment": "experiment"}
-"""Name of a problem → how a preset marks its values."""
+MARK = "identified"
+"""How a preset marks its values."""
 
 REFINEMENTS: tuple[dict[str, Any], ...] = (
     {"solver.step_s": 0.0005},
@@ -56,9 +63,6 @@ REFINEMENTS: tuple[dict[str, Any], ...] = (
 FEW = {"paper-joint": (REFINEMENTS[0], {"solver.step_s": 0.0005, "body.elements_per_bridge": 8})}
 """Name of a problem with long runs → the fewer refinements that it can afford."""
 
-MISSED = 90.0
-"""Loss beyond which a restart does not meet its targets: 3 % of each of ten figures known to 1 %."""
-
 DIGITS = 4
 """Significant digits of a value in a preset."""
 
@@ -70,19 +74,17 @@ def main() -> None:
     )
     parser.add_argument("problem", choices=sorted(PRESETS))
     parser.add_argument("--runs", type=Path, default=Path("runs/identify"), help="folder of the runs")
-    parser.add_argument("--candidates", type=int, default=60, help="how many of the best are measured again")
+    parser.add_argument("--candidates", type=int, default=24, help="how many are measured again")
     arguments = parser.parse_args()
     problem = read_problem(HERE / f"{arguments.problem}.toml")
     run = arguments.runs / arguments.problem
     with np.load(run / "candidates.npz") as kept:
-        units = kept["units"][np.argsort(kept["losses"], kind="stable")[: arguments.candidates]]
+        units = spread(problem, kept["units"], kept["losses"], arguments.candidates)
     refinements = FEW.get(arguments.problem, REFINEMENTS)
-    losses = refined_losses(problem, units, refinements)
-    best = int(losses.sum(axis=1).argmin())
+    losses, missed = measured_again(problem, units, refinements)
+    best = int(np.lexsort((losses.sum(axis=1), missed.sum(axis=1)))[0])
     values = rounded(problem.space.scene_values(units[best]))
-    if "drive.motion.y_m" in values:
-        values["drive.motion.highest_m"] = values["drive.motion.y_m"]
-    choice = words(best, losses[best], refinements, values)
+    choice = words(best, losses[best], missed[best], refinements, values)
     print(choice)
     report = (run / "report.md").read_text(encoding="utf-8")
     REPORTS.mkdir(exist_ok=True)
@@ -90,55 +92,73 @@ def main() -> None:
         report.replace("# Identification\n", f"# Identification of `{arguments.problem}`\n\n{choice}\n", 1),
         encoding="utf-8",
     )
-    restarts = restarts_of(problem, json.loads((run / "report.json").read_text(encoding="utf-8")))
-    RESTARTS.mkdir(exist_ok=True)
-    (RESTARTS / f"{arguments.problem}.json").write_text(
-        json.dumps(restarts, indent=1) + "\n", encoding="utf-8"
+    OTHERS.mkdir(exist_ok=True)
+    (OTHERS / f"{arguments.problem}.json").write_text(
+        json.dumps(others(problem, units, losses[:, 0], best), indent=1) + "\n", encoding="utf-8"
     )
-    for name in PRESETS[arguments.problem]:
-        write_values(SCENES / f"{name}.toml", values, MARKS[arguments.problem])
-        print(f"{name}: {len(values)} values written")
+    for path in PRESETS[arguments.problem]:
+        write_values(path, values, MARK)
+        print(f"{path.stem}: {len(values)} values written")
 
 
 def words(
-    rank: int, losses: NDArray[np.float64], refinements: Sequence[dict[str, Any]], values: dict[str, float]
+    rank: int,
+    losses: Floats,
+    missed: NDArray[np.int64],
+    refinements: Sequence[dict[str, Any]],
+    values: dict[str, float],
 ) -> str:
     """The choice in words, for the report."""
-    finer = "; ".join(
-        f"{loss:.3g} with {', '.join(f'`{path}` = {value:g}' for path, value in refinement.items())}"
-        for loss, refinement in zip(losses[1:], refinements, strict=True)
+    where = ["as identified"]
+    where += [
+        f"with {', '.join(f'`{path}` = {value:g}' for path, value in refinement.items())}"
+        for refinement in refinements
+    ]
+    told = "; ".join(
+        f"{loss:.3g} {place}, where it misses {'none' if count == 0 else count} of the fitted targets"
+        for loss, count, place in zip(losses, missed, where, strict=True)
     )
     chosen = ", ".join(f"`{path}` = {value:g}" for path, value in values.items())
     return (
-        f"The presets have candidate {rank + 1}, chosen with finer steps and meshes too. Its loss is "
-        f"{losses[0]:.3g} as identified; {finer}.\n\nThe presets' values: {chosen}."
+        f"The presets have candidate {rank + 1} of those that were measured with finer steps and meshes too: "
+        "of those that miss the fewest targets, the one with the least loss of all together. Its loss is "
+        f"{told}."
+        f"\n\nThe presets' values: {chosen}."
     )
 
 
-def restarts_of(problem: Problem, report: dict[str, Any]) -> list[dict[str, Any]]:
-    """Loss and field values of the best of each restart that met the targets, for the studies of others."""
-    restarts = []
-    for each in report["restarts"]:
-        if each["loss"] > MISSED:
-            continue
-        fitted = dict(zip((p.path for p in problem.space.parameters), each["values"], strict=True))
-        values = {
-            p.path: fitted[p.path] * (fitted[p.times] if p.times else 1.0) for p in problem.space.parameters
-        }
-        restarts.append({"loss": each["loss"], "values": rounded(values)})
-    return restarts
+def spread(problem: Problem, units: Floats, losses: Floats, count: int) -> Floats:
+    """The best candidate, robots that the problem starts from, and the farthest from all before (K, P).
+
+    All of them fit; each of the last is that of the fitting candidates which is farthest from those before.
+    """
+    order = np.argsort(losses, kind="stable")
+    fitting = units[order][losses[order] <= problem.limit(float(losses.min()))]
+    starts = [problem.space.unit_of(start) for start in problem.starts]
+    chosen = [fitting[0], *(unit for unit in starts if np.isclose(fitting, unit).all(axis=1).any())]
+    while len(chosen) < min(count, len(fitting)):
+        chosen.append(fitting[distances(fitting, chosen, np.ones(fitting.shape[1])).argmax()])
+    return np.array(chosen)
 
 
-def refined_losses(
-    problem: Problem, units: NDArray[np.float64], refinements: Sequence[dict[str, Any]]
-) -> NDArray[np.float64]:
-    """Losses (C, 1 + R) of candidates (C, P) as they were identified and with each of R refinements."""
-    bounds = np.full(len(units), np.inf)
-    columns = [Evaluator(problem).losses(units, bounds)]
-    for refinement in refinements:
-        columns.append(Evaluator(refined(problem, refinement)).losses(units, bounds))
-        print(f"{refinement}: least loss {columns[-1].min():.3g}")
-    return np.stack(columns, axis=1)
+def others(problem: Problem, units: Floats, losses: Floats, best: int) -> list[dict[str, Any]]:
+    """Loss and values of the first of the candidates that were measured again but not chosen."""
+    rest = [at for at in range(len(units)) if at != best][:OTHER_FITS]
+    return [
+        {"loss": float(losses[at]), "values": rounded(problem.space.scene_values(units[at]))} for at in rest
+    ]
+
+
+def measured_again(
+    problem: Problem, units: Floats, refinements: Sequence[dict[str, Any]]
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Losses (C, 1 + R) of candidates (C, P), as identified and refined, and how many targets they miss."""
+    problems = [problem, *(refined(problem, values) for values in refinements)]
+    evaluators = [Evaluator(each) for each in problems]
+    found = [[each.outcomes(unit, each.problem.fitted) for each in evaluators] for unit in units]
+    losses = [[sum(target.loss for target in targets) for targets in row] for row in found]
+    missed = [[sum(not target.met for target in targets) for targets in row] for row in found]
+    return np.array(losses), np.array(missed)
 
 
 def refined(problem: Problem, values: dict[str, Any]) -> Problem:
@@ -173,8 +193,9 @@ def write_values(path: Path, values: dict[str, float], mark: str) -> None:
 
 
 def marked(field: str, value: float, line: str, mark: str) -> str:
-    """A line of a scene file with another value; what its comment adds after a colon stays."""
+    """A line of a scene file with another value; "effective" and what follows a colon stay in its comment."""
     remark = re.search(r"#[^:]*:(.*)", line)
+    mark = "effective" if "# effective" in line else mark
     comment = f"# {mark}" + (f":{remark.group(1)}" if remark else "")
     number = f"{value:g}" if 1e-3 <= abs(value) < 1e5 else f"{value:.{DIGITS}g}"
     return f"{f'{field} = {number} ':<32}{comment}"
