@@ -12,7 +12,7 @@ import pytest
 import magworm_gym
 from magworm_gym import Batch, MagWormVectorEnv, Scene, SceneError, load_scene, magnet, record_scenes
 
-SCENE = Scene.preset("paper-3")
+SCENE = Scene.preset("paper-3").with_values({"magnetic_terms.mutual": False})
 ON, FIRST = np.ones(2, np.bool_), np.zeros(2, np.uint64)
 
 

@@ -113,7 +113,9 @@ def test_held_wrenches_are_older_and_fewer() -> None:
     one = replace(crawl(), scenes=crawl().scenes[16:18], axes=[step, axis], front=[Settings(5.0)])
     rows = measure(replace(one, reference=Settings(2.0), check=Settings(5.0)), 1)
     along = [row for row in rows if (row.part, row.figure) == ("axis interval", "pose")]
-    assert [row.work.wrenches for row in along if row.work] == [1500.0, 300.0]
+    steps, of_drive, of_body = 500, 3, 4  # one pair lies evenly about the middle and counts twice
+    expected = [steps * (of_drive / interval + of_body) for interval in (1, 5)]
+    assert [row.work.wrenches for row in along if row.work] == expected
     assert along[0].error == 0.0 < along[1].error
     assert age_ms(along[1].settings) == 4.0
     said = held([one], rows)

@@ -28,10 +28,11 @@ def test_exponents_are_those_of_the_upper_part() -> None:
 
 @pytest.mark.parametrize("space", [False, True])
 def test_wrenches_are_counted_for_every_pair_of_magnets(space: bool) -> None:
+    """Two of a body's six pairs lie evenly about its middle and count twice."""
     row = {"kind": "belt", "pitch_m": 0.05, "count": 3}
     found = cost(setting(space, {"body.magnets": 4, "drive.arrangement": row}, environments=BLOCK + 1))
-    solver_steps = 10
-    assert found.wrenches == 2 * solver_steps * 4 * 3
+    solver_steps, of_drives, of_body = 10, 4 * 3, 6 + 2
+    assert found.wrenches == 2 * solver_steps * (of_drives + of_body)
     assert found.systems >= 2 * solver_steps and found.broken == 0
     assert 0.0 < found.seconds < 60.0 and CONTROL_STEPS > 1
 

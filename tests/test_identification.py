@@ -25,6 +25,7 @@ from magworm_gym.identification.targets import Comparison, Target
 
 PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
 ROBOT = {
+    "body.foot_length_m": 0.014,
     "body.width_m": 0.021,
     "material.youngs_modulus_pa": 75e3,
     "material.damping_time_s": 0.0076,
@@ -36,7 +37,9 @@ ROBOT = {
     "drive.height_m": 0.0033,
     "ground.static_friction": 0.75,
     "ground.dynamic_friction": 0.63,
+    "ground.transition_speed_m_s": 0.008889,
     "ground.adhesion_n": 0.0009,
+    "magnetic_terms.mutual": False,
 }
 """Values that these tests count on, whatever the preset's are."""
 CAMERA = Camera(metres_per_pixel=1.5e-4, frames_per_second=60.0)

@@ -15,14 +15,15 @@ def test_shares_sum_to_one_and_explain_shows_them(preset):
     shares = scene.shares()
     assert sum(shares.values()) == pytest.approx(1.0)
     assert all(share > 0.0 for share in shares.values())
-    assert {"magnets", "contact", "springs"} <= shares.keys()
+    assert {"magnets", "mutual magnets", "contact", "springs"} <= shares.keys()
     explained = scene.explain(measure=True)
     assert explained.startswith(scene.explain())
     assert all(f"\n{phase}" in explained for phase in shares)
 
 
 def test_what_a_scene_lacks_has_no_share():
-    scene = Scene.preset("paper-3").with_values({"drive": None, "ground": None, "gravity_m_s2": 0.0})
+    lacks = {"drive": None, "ground": None, "gravity_m_s2": 0.0, "magnetic_terms.mutual": False}
+    scene = Scene.preset("paper-3").with_values(lacks)
     assert scene.shares().keys() == {"kinematics", "inertia", "springs", "system", "commit"}
 
 

@@ -28,7 +28,10 @@ def magnet(size_m: tuple[float, float, float], **more: float) -> dict[str, float
 
 
 def robot(dimensions: int, order: int) -> Scene:
-    """Four feet with magnets of three sizes and four directions, two of them beside the middle."""
+    """Four feet with magnets of three sizes and four directions, two of them beside the middle.
+
+    The drive alone acts on them: pairs of the body's magnets choose their order themselves.
+    """
     space = dimensions == 3
     small, long, tall = (0.006, 0.002, 0.007), (0.009, 0.0015, 0.006), (0.004, 0.004, 0.005)
     magnets = [
@@ -50,6 +53,7 @@ def robot(dimensions: int, order: int) -> Scene:
             "body": {"kind": "segments", "segment": segments[:-1]},
             "dimensions": dimensions,
             "drive.motion": {**motion, **beside},
+            "magnetic_terms.mutual": False,
             "solver.quadrature_order": order,
         }
     )

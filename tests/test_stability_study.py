@@ -12,7 +12,19 @@ pytest.importorskip("matplotlib")
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from magworm_gym import Scene, SceneError, record_scenes
-from studies.stability.axes import ALONE, GAP, INSIDE, MASS_RATIO, SECTION, STEP, STIFFNESS, base_scene
+from studies.paper.scenes import values_of
+from studies.stability.axes import (
+    ALONE,
+    DRIVE_HALF_HEIGHT_M,
+    GAP,
+    INSIDE,
+    MASS_RATIO,
+    ROBOT,
+    SECTION,
+    STEP,
+    STIFFNESS,
+    base_scene,
+)
 from studies.stability.cases import Case, alone, crossed, every_pair, judge
 from studies.stability.data import energy_csv, limits_csv, outcomes_csv, starts_csv
 from studies.stability.energy import CLAMPED, Swing, energies_j, measured
@@ -44,12 +56,13 @@ def test_every_axis_makes_scenes_or_says_why_not() -> None:
 
 
 def test_the_robot_keeps_its_mass_whatever_the_ratio() -> None:
-    preset = Scene.preset("paper-3").to_toml()
-    assert "density_kg_m3 = 1070" in preset
+    values = values_of(ROBOT)
+    assert values["material"]["density_kg_m3"] == 1070.0
+    assert values["drive"]["height_m"] == pytest.approx(2.0 * DRIVE_HALF_HEIGHT_M)
     near = MASS_RATIO.changes(7500.0 / 1070.0 * 0.0629)
     assert near["material.density_kg_m3"] == pytest.approx(1070.0, rel=0.01)
     assert near["magnet.density_kg_m3"] == pytest.approx(7500.0, rel=0.01)
-    assert GAP.changes(0.0)["drive.motion.y_m"] == pytest.approx(-0.004033 / 2)
+    assert GAP.changes(0.0)["drive.motion.y_m"] == pytest.approx(-0.5 * values["drive"]["height_m"])
     assert SECTION.changes(7.0)["body.bridge_thickness_m"] == pytest.approx(0.004)
 
 

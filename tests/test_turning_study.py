@@ -11,11 +11,13 @@ pytest.importorskip("matplotlib")
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
-from magworm_gym import Recording
+from magworm_gym import Recording, Scene, record_scenes
+from studies.paper.scenes import PASS_S, one_pass
 from studies.turning.data import points_csv, tipping_csv
 from studies.turning.findings import first_tipping
 from studies.turning.page import page
 from studies.turning.passes import (
+    MM,
     Drive,
     Outcome,
     averaged,
@@ -24,7 +26,7 @@ from studies.turning.passes import (
     points,
     rolls_deg,
 )
-from studies.turning.plane import Comparison, comparisons
+from studies.turning.plane import PRESETS, Comparison, comparisons
 from studies.turning.sweeps import SWEEPS, TIPPING, TIPPING_OFFSETS_MM
 
 
@@ -110,7 +112,8 @@ def test_a_page_is_written_from_results_alone() -> None:
 
 def test_a_pass_on_the_line_turns_nothing_and_mirrored_passes_turn_oppositely() -> None:
     middle, left, right = outcomes([Drive(3), Drive(3, 3.0), Drive(3, -3.0)])
-    assert abs(middle.yaw_deg) < 1e-3 and middle.stride_mm == pytest.approx(3.45, abs=0.4)
+    (flat,) = record_scenes([one_pass(Scene.preset("paper-3"))], PASS_S)
+    assert abs(middle.yaw_deg) < 1e-3 and middle.stride_mm == pytest.approx(MM * flat.progress_m[-1], abs=0.1)
     assert left.yaw_deg > 0.5 and not left.tipped
     assert right.yaw_deg == pytest.approx(-left.yaw_deg, abs=0.3)
 
@@ -122,4 +125,4 @@ def test_neighbours_are_run_around_a_point() -> None:
 
 def test_a_planar_preset_keeps_its_lift_in_space() -> None:
     lifts = [each for each in comparisons() if each.case == "lift"]
-    assert len(lifts) == 4 and all(abs(each.difference) < 0.01 for each in lifts)
+    assert len(lifts) == len(PRESETS) and all(abs(each.difference) < 0.01 for each in lifts)

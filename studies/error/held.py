@@ -16,9 +16,10 @@ PRESET = Settings(2.0)
 TEXT = """## How often a wrench is computed
 
 `solver.wrench_interval` lets force and torque of a wrench act for n steps, which divide a control step: what
-acts is (n − 1)/2 steps old on the average, and the error is of first order in that age. The three wrenches of
-a step are {plane:.1f} % of its instructions in the plane and {space:.1f} % in space ([needs.md](needs.md)),
-and {belt:.0f} % over a belt of 16 magnets: holding them saves less than that.
+acts is (n − 1)/2 steps old on the average, and the error is of first order in that age. Wrenches of body
+magnets on each other are computed in every step all the same. The drive's three wrenches of a step are
+{plane:.1f} % of its instructions in the plane and {space:.1f} % in space ([needs.md](needs.md)), and
+{belt:.0f} % over a belt of 16 magnets: holding them saves less than that.
 """
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from magworm_gym import Scene
 from studies.error.case import Case
 from studies.error.errors import Errors, errors
-from studies.error.settings import MS, Settings
+from studies.error.settings import MS, Settings, quarter
 from studies.paper.scenes import values_of
 from studies.throughput import measured
 
@@ -43,6 +43,7 @@ def read_settings(scene: Scene) -> Settings:
     """Numerical choices of a worm's scene."""
     values = values_of(scene)
     solver, body = values["solver"], values["body"]
+    foot_end = body["elements_per_foot_end"]
     return Settings(
         step_ms=round(MS * solver["step_s"], 6),
         elements=body["elements_per_bridge"],
@@ -50,6 +51,7 @@ def read_settings(scene: Scene) -> Settings:
         integrator=solver["integrator"],
         interval=solver["wrench_interval"],
         precision=solver["precision"],
+        foot_end=None if foot_end == quarter(body["elements_per_bridge"]) else foot_end,
     )
 
 

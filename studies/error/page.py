@@ -30,9 +30,9 @@ much a coarser one differs from it, which bounds its own error.
 **Cost** is of one robot-second: wall time on one core with eight environments in the lanes of a vector
 (sixteen in single precision), 32 environments whose stiffness differs by up to 2 %, and counters that no
 machine changes: systems and trials of a solver step of all lanes, wrenches of a drive magnet on a body
-magnet. Settings that no other beats in both error and wall time are on the front; some owe it to errors of
-step, mesh and interval that cancel, which the pose tells. Hollow points of a figure are settings whose
-wrenches act for several steps, squares are single precision.
+magnet and of body magnets on each other. Settings that no other beats in both error and wall time are on the
+front; some owe it to errors of step, mesh and interval that cancel, which the pose tells. Hollow points of a
+figure are settings whose wrenches act for several steps, squares are single precision.
 
 Data: `studies/error/errors.csv`, `peers.csv`.
 """

@@ -17,12 +17,12 @@ class Settings:
 
     Attributes:
         step_ms: Step [ms].
-        elements: Elements of a bridge between two feet, and four times those of a foot's end; of a rod, of
-            its whole length.
+        elements: Elements of a bridge between two feet; of a rod, of its whole length.
         order: Order of the quadrature of the wrench; 0 takes dipoles.
         integrator: Scheme.
         interval: Steps for which a wrench acts.
         precision: Of numbers: double or single.
+        foot_end: Elements of a foot's end; None for a quarter of those of a bridge, one at least.
     """
 
     step_ms: float
@@ -31,6 +31,7 @@ class Settings:
     integrator: str = "newmark"
     interval: int = 1
     precision: str = "double"
+    foot_end: int | None = None
 
     def changes(self, body: str) -> dict[str, Any]:
         """As values of a scene whose body is a worm or a rod."""
@@ -47,7 +48,7 @@ class Settings:
         if body == "rod":
             return values | {"body.elements": self.elements}
         values["body.elements_per_bridge"] = self.elements
-        values["body.elements_per_foot_end"] = max(1, self.elements // 4)
+        values["body.elements_per_foot_end"] = self.foot_end or quarter(self.elements)
         return values
 
     def text(self) -> str:
@@ -56,4 +57,10 @@ class Settings:
         held = f", a wrench for {self.interval} steps" if self.interval > 1 else ""
         numbers = ", single" if self.precision == "single" else ""
         scheme, mesh = f"{INTEGRATORS[self.integrator]}, {self.step_ms:g} ms", f"{self.elements} elements"
-        return f"{scheme}, {mesh}, {wrench}{held}{numbers}"
+        ends = f", {self.foot_end} a foot's end" if self.foot_end else ""
+        return f"{scheme}, {mesh}{ends}, {wrench}{held}{numbers}"
+
+
+def quarter(elements: int) -> int:
+    """Elements of a foot's end beside a bridge of so many."""
+    return max(1, elements // 4)

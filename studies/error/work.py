@@ -26,7 +26,7 @@ class Work:
         steps: Solver steps.
         systems: Linear systems, each of all lanes at once, per step of a block.
         trials: Trials of the contact solve, likewise.
-        wrenches: Wrenches of a drive magnet on a body magnet.
+        wrenches: Wrenches of a drive magnet on a body magnet, and of body magnets on each other.
     """
 
     wall_s: float

@@ -47,7 +47,7 @@ class Cost:
         seconds: Wall time [s], the least of several runs: what other programs take only ever adds.
         processor_s: Time of all processors together [s], the least of several runs.
         systems: Linear systems with contact that were solved.
-        wrenches: Wrenches between a drive magnet and a body magnet.
+        wrenches: Wrenches of a drive magnet on a body magnet, and of two body magnets on each other.
         broken: Environments that broke.
     """
 

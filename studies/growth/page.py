@@ -25,7 +25,8 @@ def introduction() -> str:
 Written by `make study-growth`; do not edit. The cost of a control step of 20 ms, ten solver steps, of
 `paper-3` (plane) and `turn-3` (space), while one thing is varied: wall time, and work counted by the
 simulator, once for the eight environments of a block: *systems* are the linear systems with contact that
-were solved, *wrenches* those of one drive magnet on one body magnet. *Processor* is the time of all
+were solved, *wrenches* those of one drive magnet on one body magnet and of two body magnets on each other,
+which are computed twice where both are as far from the middle of the robot. *Processor* is the time of all
 processors together, which other programs disturb less. Each time is the least of several runs of the same
 first {CONTROL_STEPS} control steps with random actions, in one call of `Batch.rollout`, on {os.cpu_count()}
 cores. Exponents are those of cost ∝ size^p, by least squares on the logarithms of the upper half of a sweep

@@ -13,11 +13,13 @@ NODES = (12, 20, 50, 100, 200, 500, 1000)
 MAGNETS = (1, 2, 4, 8, 16, 32)
 DRIVES = (1, 2, 4, 8, 16)
 PITCH_M = 0.05
-"""Of the drive magnets, which are 40 mm long."""
+"""Of the drive magnets."""
 NODES_OF_FEET = 10
 """Nodes of three feet, so that two bridges make up the rest."""
+FINE = {"body.pitch_m": 0.022}
+"""Feet further apart than the presets', whose bridges are too short for as many elements."""
 BEYOND = (
-    {"body.elements_per_bridge": (max(NODES) - NODES_OF_FEET) // 2 + 1},
+    {**FINE, "body.elements_per_bridge": (max(NODES) - NODES_OF_FEET) // 2 + 1},
     {"body.magnets": max(MAGNETS) + 1},
     {"drive.arrangement": {"kind": "belt", "pitch_m": PITCH_M, "count": max(DRIVES) + 1}},
 )
@@ -61,9 +63,10 @@ SWEEPS = (
     Sweep(
         "nodes",
         "nodes of a body",
-        "64 environments on one thread, three magnets, one drive magnet",
+        "64 environments on one thread, three magnets 22 mm apart, one drive magnet",
         lambda space: [
-            setting(space, {"body.elements_per_bridge": (count - NODES_OF_FEET) // 2}) for count in NODES
+            setting(space, {**FINE, "body.elements_per_bridge": (count - NODES_OF_FEET) // 2})
+            for count in NODES
         ],
     ),
     Sweep(

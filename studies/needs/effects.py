@@ -36,6 +36,7 @@ EFFECTS = (
     Effect("magnets on each other", "mutual", "bare", ("mutual magnets",)),
     Effect("a magnet lost", "damage", "bare"),
     Effect("ground, robots in the air", "ground", "bare"),
+    Effect("magnets on each other, robots crawling", "step", "no-mutual", ("mutual magnets",)),
     Effect("friction and adhesion, robots crawling", "step", "no-friction"),
     Effect("adhesion, robots crawling", "step", "no-adhesion"),
 )

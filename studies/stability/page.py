@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from magworm_gym import Scene
 from studies.stability.axes import ALONE, CROSSED, Axis
 from studies.stability.cases import FINER, INTEGRATORS, STEP_S, TOLERANCE, VERDICTS, Case, Outcome
 from studies.stability.energy import BAND, Swing
@@ -23,6 +24,8 @@ from studies.stability.starts import (
 )
 
 IMAGES = "images/stability"
+PRESET_LIMIT_S, _ = Scene.preset("paper-3").explicit_limit()
+"""The longest step of the explicit scheme for the preset [s]."""
 WHERE = {2: "plane", 3: "space"}
 Row = Sequence[object]
 
@@ -32,8 +35,10 @@ Written by `make study-stability`; do not edit. What each integrator does with s
 from the softest rubber to steel and from short steps to the longest that a scene allows.
 
 Two bodies are swept. The *rod* is the preset `cantilever` with ten elements and a retardation time of 1
-ms, let go from the horizontal. The *robot* is `paper-3` over a drive magnet that goes by at 100 mm/s, 22
-mm beneath the ground. The step is {1e3 * STEP_S["newmark"]:g} ms for `newmark` and `euler` and {
+ms, let go from the horizontal. The *robot* has three magnets that do not act on each other, over a drive
+magnet that goes by at 100 mm/s, 22 mm beneath the ground (`rust/magworm/tests/data/robot.toml`). It is not
+`paper-3`, whose rubber damps so much that `explicit` would need steps of {1e9 * PRESET_LIMIT_S:.0f} ns. The
+step is {1e3 * STEP_S["newmark"]:g} ms for `newmark` and `euler` and {
     1e6
     * STEP_S["explicit"]:g} µs for `explicit` unless it is what is swept; the former run for 0.6 s, the latter
 for 0.1 s (rod) and 0.05 s (robot). Each case gets a verdict:

@@ -10,7 +10,7 @@ from studies.paper.lift import HOLD_S, LOW_M, RISE_S
 from studies.paper.scenes import PASS_S, PLANE_M, one_pass, under_middle, values_of
 from studies.turning.passes import MM, rolls_deg
 
-PRESETS = ("paper-3", "paper-4", "paper-5", "paper-3-experiment")
+PRESETS = ("paper-3", "paper-4", "paper-5")
 BELT, BELT_PERIOD_S = "belt-125", 1.25
 ASIDE_MM = 0.01
 """Ours: a drive that is not quite on the line; on it nothing rolls, stable or not."""

@@ -141,6 +141,7 @@ SECTIONS = (
         {
             "lift": "the paper's figure, fitted",
             "pass": "the paper's figures, fitted",
+            "pass_of_the_experiment": "the paper's figures, fitted",
             "ablations": "the paper's words, fitted",
         },
     ),

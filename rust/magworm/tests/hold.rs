@@ -1,8 +1,10 @@
 //! Wrenches that act for several steps: they equal those that a step of their own computes and a hand holds, lane by lane.
 
+mod base;
+
+use base::base;
 use magworm::internals::lanes::{InstructionSet, WIDE};
 use magworm::internals::{Block, Draws, Phase, Steps, command, reset, scene_start};
-use magworm::scene::Scene;
 use magworm::{Batch, LaneChoice, Model, Status};
 use std::sync::Arc;
 
@@ -10,7 +12,7 @@ use std::sync::Arc;
 fn model(preset: &str, edits: &[(&str, &str)]) -> Arc<Model> {
     let value = |text: &str| (!text.is_empty()).then(|| text.parse().expect("TOML"));
     let edits: Vec<_> = edits.iter().map(|(path, text)| (path.to_string(), value(text))).collect();
-    let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
+    let scene = base(preset).with_values(&edits);
     Arc::new(Model::compile(&scene.expect("a valid scene")).expect("a model"))
 }
 
@@ -125,18 +127,18 @@ fn equals_a_hand(preset: &str, edits: &[(&str, &str)], interval: u64) {
 #[test]
 fn a_held_wrench_is_the_one_computed_last() {
     for interval in [2, 5, 10] {
-        equals_a_hand("paper-3", &[], interval);
-        equals_a_hand("paper-3", IN_SPACE, interval);
+        equals_a_hand("robot", &[], interval);
+        equals_a_hand("robot", IN_SPACE, interval);
     }
-    equals_a_hand("paper-3", PAIR, 5);
-    equals_a_hand("paper-3", EXPLICIT, 10);
+    equals_a_hand("robot", PAIR, 5);
+    equals_a_hand("robot", EXPLICIT, 10);
 }
 
 #[test]
 fn a_wrench_that_acts_for_one_step_has_no_rows_and_needs_none() {
-    let block = Block::<[f64; WIDE]>::new(&model("paper-3", &[]));
+    let block = Block::<[f64; WIDE]>::new(&model("robot", &[]));
     assert!(block.wrench.is_empty());
-    let rows = |edits| Block::<[f64; WIDE]>::new(&holding("paper-3", edits, 2)).wrench.len();
+    let rows = |edits| Block::<[f64; WIDE]>::new(&holding("robot", edits, 2)).wrench.len();
     assert_eq!((rows(&[]), rows(IN_SPACE)), (3 * 3, 3 * 6));
     // A field without a drive has no wrench to hold.
     assert!(Block::<[f64; WIDE]>::new(&holding("cantilever", &[], 2)).wrench.is_empty());
@@ -144,7 +146,7 @@ fn a_wrench_that_acts_for_one_step_has_no_rows_and_needs_none() {
 
 #[test]
 fn a_fresh_start_forgets_the_wrench() {
-    let model = holding("paper-3", IN_SPACE, 10);
+    let model = holding("robot", IN_SPACE, 10);
     let mut block = Block::new(&model);
     (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
     block.advance_on(InstructionSet::widest(), &model, 3);
@@ -157,7 +159,7 @@ fn a_fresh_start_forgets_the_wrench() {
 
 #[test]
 fn a_model_says_that_it_holds_wrenches() {
-    let said = |interval| holding("paper-3", &[], interval).explain();
+    let said = |interval| holding("robot", &[], interval).explain();
     assert!(said(1).contains("3 wrenches a step, cuboids"));
     assert!(said(5).contains("3 wrenches every 5 steps, held between, cuboids"));
 }
@@ -166,7 +168,7 @@ fn a_model_says_that_it_holds_wrenches() {
 fn the_torque_of_a_uniform_field_is_not_held() {
     let edits = [("drive.remanence_t", "0.0"), ("field", "{ x_t = 0.02, y_t = -0.01 }")];
     for edits in [edits.to_vec(), [IN_SPACE, &edits].concat()] {
-        let (every, held) = (model("paper-3", &edits), holding("paper-3", &edits, 10));
+        let (every, held) = (model("robot", &edits), holding("robot", &edits, 10));
         let (mut one, mut other) = (Block::new(&every), Block::new(&held));
         for (model, block) in [(&every, &mut one), (&held, &mut other)] {
             (0..WIDE).for_each(|lane| start(model, block, lane));
@@ -179,7 +181,7 @@ fn the_torque_of_a_uniform_field_is_not_held() {
 #[test]
 fn what_is_not_computed_is_not_counted() {
     let wrenches = |interval, steps| {
-        let model = holding("paper-3", PAIR, interval);
+        let model = holding("robot", PAIR, interval);
         let mut block = Block::new(&model);
         (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
         block.advance_on(InstructionSet::widest(), &model, steps);
@@ -192,7 +194,7 @@ fn what_is_not_computed_is_not_counted() {
 
 #[test]
 fn lanes_that_are_due_in_different_steps_make_the_block_compute() {
-    let model = holding("paper-3", &[], 10);
+    let model = holding("robot", &[], 10);
     let mut block = Block::new(&model);
     (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
     block.advance_on(InstructionSet::widest(), &model, 3);
@@ -205,7 +207,7 @@ fn lanes_that_are_due_in_different_steps_make_the_block_compute() {
 
 #[test]
 fn a_robot_that_stands_still_is_never_due() {
-    let model = holding("paper-3", &[], 5);
+    let model = holding("robot", &[], 5);
     let mut block = Block::new(&model);
     (0..WIDE).for_each(|lane| start(&model, &mut block, lane));
     block.status.fill(Status::Sunk);
@@ -216,7 +218,7 @@ fn a_robot_that_stands_still_is_never_due() {
 #[test]
 fn a_snapshot_between_two_wrenches_holds_the_wrench() {
     for edits in [&[], IN_SPACE] {
-        let model = holding("paper-3", edits, 10);
+        let model = holding("robot", edits, 10);
         let batch = || Batch::new(model.clone(), 3, LaneChoice::Wide, Some(1));
         let (mut original, mut copy) = (batch(), batch());
         (0..3).for_each(|robot| original.reset(robot, robot as u64, 0, None));
@@ -245,7 +247,7 @@ const FLIGHT_IN_SPACE: &[(&str, &str)] =
 
 /// Places of the magnets after a control step where wrenches act for some steps [m].
 fn places_m(edits: &[(&str, &str)], interval: u64) -> Vec<f64> {
-    let model = holding("paper-3", edits, interval);
+    let model = holding("robot", edits, interval);
     let mut batch = Batch::new(model.clone(), 1, LaneChoice::Scalar, Some(1));
     batch.reset(0, 0, 0, None);
     batch.advance(model.steps_per_control);

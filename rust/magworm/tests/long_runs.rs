@@ -1,19 +1,22 @@
 //! Runs of days: single precision counts its steps in whole numbers and keeps time beyond 2²⁴ of them.
 
+mod base;
+
+use base::base;
 use magworm::internals::lanes::{InstructionSet, Row};
 use magworm::internals::{Block, Draws, Steps, reset, scene_start};
-use magworm::{Model, Scene, Status};
+use magworm::{Model, Status};
 
 /// The last number up to which `f32` counts.
 const COUNTED_IN_F32: u64 = 1 << 24;
 const SPEED_M_S: f64 = 0.1;
 const START_M: f64 = -0.05;
 
-/// `paper-3` in single precision above a drive with edits, at its start.
+/// `robot` in single precision above a drive with edits, at its start.
 fn robot<R: Row>(motion: &str) -> (Model, Block<R>) {
     let edits = [("solver.precision", "'single'"), ("drive.motion", motion)]
         .map(|(path, value)| (path.to_string(), Some(value.parse().expect("TOML"))));
-    let scene = Scene::preset("paper-3").and_then(|scene| scene.with_values(&edits));
+    let scene = base("robot").with_values(&edits);
     let model = Model::compile(&scene.expect("a valid scene")).expect("a model");
     let (mut block, start) = (Block::new(&model), scene_start(&model));
     let present = vec![true; model.magnets()];

@@ -1,5 +1,8 @@
 //! Terms of the magnetic wrench, their factors in each environment, and the models of body magnets that act on each other.
 
+mod base;
+
+use base::base;
 use magworm::internals::Draws;
 use magworm::internals::lanes::{Space, Vector};
 use magworm::internals::magnetic::{FarPair, MU_0, Magnet, SpatialPair, orders_by_distance};
@@ -26,7 +29,7 @@ fn pass(dimensions: i64, without: Option<&str>) -> Scene {
         ("magnetic_terms.mutual".to_string(), Some(true.into())),
     ];
     values.extend(without.map(|term| (format!("magnetic_terms.{term}"), Some(false.into()))));
-    Scene::preset("paper-3").and_then(|scene| scene.with_values(&values)).expect("a scene")
+    base("robot").with_values(&values).expect("a scene")
 }
 
 fn batch(scene: &Scene, count: usize) -> Batch {
@@ -91,7 +94,7 @@ fn a_factor_between_0_and_1_is_a_part_of_the_wrench() {
 fn a_term_that_is_left_out_is_not_varied() {
     let vary = "[{ parameter = 'mutual', low = 0.5, high = 1 }]".parse().expect("TOML");
     let values = [("reset.vary".to_string(), Some(vary))];
-    let error = Scene::preset("paper-3").and_then(|scene| scene.with_values(&values));
+    let error = base("robot").with_values(&values);
     assert_eq!(
         error.expect_err("no such term").to_string(),
         "reset.vary[0].parameter is \"mutual\"; allowed: a term that acts: magnetic_terms.mutual is false"

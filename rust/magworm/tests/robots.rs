@@ -1,13 +1,16 @@
 //! Who asks for a robot gets that of its own magnets.
 
+mod base;
+
+use base::base;
 use magworm::internals::Robot;
 use magworm::observe;
-use magworm::{Batch, LaneChoice, Model, Scene, StepOutput};
+use magworm::{Batch, LaneChoice, Model, StepOutput};
 use std::sync::Arc;
 
 /// Three magnets, of which the first one belongs to no robot; the stage starts beneath the robot.
 fn model() -> Model {
-    let mut scene = Scene::preset("paper-3").expect("a preset");
+    let mut scene = base("robot");
     scene.reset.random_drive = false;
     let mut model = Model::compile(&scene).expect("a valid scene");
     let whole = model.robots[Robot::AGENT].clone();

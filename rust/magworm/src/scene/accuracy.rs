@@ -31,7 +31,7 @@ const LEVELS: [Level; 3] = [
         precision: "single",
         step_s: [5e-3, 2e-3],
         elements_per_bridge: 4,
-        elements_per_foot_end: 1,
+        elements_per_foot_end: 2,
         quadrature_order: 2,
     },
     Level {

@@ -6,8 +6,15 @@ use super::error::{Problem, SceneError};
 /// Name and text of each robot: that of its ensemble, and its number.
 type Robot = (&'static str, u32, &'static str);
 
-/// The files of `scenes/ensemble/`, each ensemble in the order of its numbers.
-const ROBOTS: &[Robot] = &[];
+/// Robots of an ensemble with these numbers.
+macro_rules! robots {
+    ($name:literal: $($number:literal)*) => {
+        &[$(($name, $number, include_str!(concat!("../../scenes/ensemble/", $name, "-", $number, ".toml")))),*]
+    };
+}
+
+/// The files of `scenes/ensemble/`, in the order of their numbers.
+const ROBOTS: &[Robot] = robots!("paper-3": );
 
 impl Scene {
     /// The robots of an ensemble, in their order. They are of one shape: a batch may hold all of them, see [`crate::Ensemble`].
@@ -37,14 +44,14 @@ mod tests {
 
     const TWO: &[Robot] = &[
         ("three", 1, include_str!("../../scenes/paper-3.toml")),
-        ("three", 2, include_str!("../../scenes/paper-3-experiment.toml")),
+        ("three", 2, include_str!("../../scenes/paper-3-simulation.toml")),
         ("others", 1, include_str!("../../scenes/paper-5.toml")),
     ];
 
     #[test]
     fn robots_come_in_their_order_and_names_that_are_not_there_are_told() {
         let names = |name| of(TWO, name).map(|scenes| scenes.into_iter().map(|s| s.name).collect());
-        assert_eq!(names("three"), Ok(vec!["paper-3".to_string(), "paper-3-experiment".into()]));
+        assert_eq!(names("three"), Ok(vec!["paper-3".to_string(), "paper-3-simulation".into()]));
         assert_eq!(
             names("four").unwrap_err().to_string(),
             "there is no ensemble \"four\"; ensembles: three, others"

@@ -6,7 +6,7 @@ use super::error::{Problem, SceneError};
 /// Name and text of each preset.
 const TEXTS: [(&str, &str); 8] = [
     ("paper-3", include_str!("../../scenes/paper-3.toml")),
-    ("paper-3-experiment", include_str!("../../scenes/paper-3-experiment.toml")),
+    ("paper-3-simulation", include_str!("../../scenes/paper-3-simulation.toml")),
     ("paper-4", include_str!("../../scenes/paper-4.toml")),
     ("paper-5", include_str!("../../scenes/paper-5.toml")),
     ("turn-3", include_str!("../../scenes/turn-3.toml")),

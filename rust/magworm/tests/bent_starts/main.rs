@@ -1,5 +1,7 @@
 //! Bodies that start bent: the strains that were asked for, the places that follow, and nothing new where they are straight.
 
+#[path = "../base/mod.rs"]
+mod base;
 mod places;
 mod strains;
 mod world;
@@ -33,13 +35,13 @@ fn zeros_are_straight_bit_for_bit_and_leave_no_trace() {
 
 #[test]
 fn a_bent_start_survives_toml_and_is_told() {
-    let bent = scene("paper-3", &[&[SPACE, MANY, TWISTS]]);
+    let bent = scene("robot", &[&[SPACE, MANY, TWISTS]]);
     let text = bent.to_toml();
     assert!(text.contains("bends_deg = [30.0, -200.0,") && !text.contains("bends_aside_deg"));
     assert_eq!(Scene::from_toml(&text), Ok(bent.clone()));
     let told = Model::compile(&bent).expect("a model").explain();
     assert!(told.contains("start         bent by up to "), "{told}");
-    assert!(!World::new("paper-3", &[]).model.explain().contains("start "));
+    assert!(!World::new("robot", &[]).model.explain().contains("start "));
     let error = Scene::from_toml(&text.replace("-200.0", "-2000.0")).unwrap_err();
     let line = 1 + text[..text.find("bends_deg").expect("the list")].matches('\n').count();
     assert!(error.to_string().starts_with(&format!("line {line}: start.bends_deg[1] is -2000°")));

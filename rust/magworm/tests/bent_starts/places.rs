@@ -23,7 +23,7 @@ fn a_body_in_the_plane_is_bent_as_in_space() {
 
 #[test]
 fn whole_turns_of_a_magnet_count_in_the_plane() {
-    let world = World::new("paper-3", &[&[("start.bends_deg", "[800]")]]);
+    let world = World::new("robot", &[&[("start.bends_deg", "[800]")]]);
     let angle = world.block.planar_pose(&world.model, 2, 0)[2];
     assert!((500.0..800.0).contains(&angle.to_degrees()), "{}", angle.to_degrees());
 }
@@ -44,12 +44,12 @@ fn the_lowest_point_of_a_bent_body_stands_at_its_height() {
     assert!((lowest - 0.002 - 0.01).abs() < 1e-15, "{lowest}");
     assert!((world.place(0).x - 0.2).abs() < 1e-15 && world.place(0).y > 0.02);
     // Of a robot's bridges, which touch nothing, the section counts.
-    let robot = World::new("paper-3", &[&hanging[1..]]);
+    let robot = World::new("robot", &[&hanging[1..]]);
     let lowest = (0..robot.model.nodes()).map(|node| robot.place(node).y).fold(1.0, f64::min);
     assert!((0.01 + 0.002..=0.01 + 0.0035 + 1e-15).contains(&lowest), "{lowest}");
     // One that is rolled stands on a corner of a section.
     let aside: &Edits<'_> = &[SPACE, ("start.twists_deg", "[0, 90, 0]"), ("start.height_m", "0")];
-    let rolled = World::new("paper-3", &[aside]);
+    let rolled = World::new("robot", &[aside]);
     assert!(rolled.up(rolled.elements() - 1).y.abs() < 1e-14);
     let mut lowest = f64::MAX;
     for (e, element) in rolled.model.mesh.elements.iter().enumerate() {
@@ -70,9 +70,9 @@ fn the_lowest_point_of_a_bent_body_stands_at_its_height() {
 #[test]
 fn a_pose_of_a_reset_moves_the_shape_of_the_scene() {
     let bent: &Edits<'_> = &[SPACE, MANY, ASIDE, TWISTS];
-    let own = World::new("paper-3", &[bent]);
+    let own = World::new("robot", &[bent]);
     let pose = StartPose { x_m: 0.1, height_m: 0.02, angle_rad: 0.7, z_m: -0.3, yaw_rad: 2.0 };
-    let moved = World::started(Model::compile(&scene("paper-3", &[bent])).expect("a model"), pose);
+    let moved = World::started(Model::compile(&scene("robot", &[bent])).expect("a model"), pose);
     let (first, last) = (own.place(0), moved.place(0));
     assert!((last.x - 0.1).abs() < 1e-15 && (last.z + 0.3).abs() < 1e-15);
     let tangent =

@@ -87,7 +87,7 @@ fn a_node_takes_its_share_of_each_part() {
     assert!(bends.iter().all(|bend| (bend - 53.0 / 26.0).abs() < 1e-9), "{bends:?}");
     assert!(clamped.place(0).x < 0.0 && clamped.place(0).y == 0.0 && clamped.place(1).y == 0.0);
     // Nothing of a magnet bends.
-    let robot = World::new("paper-3", &[&[("start.bends_deg", "[90]")]]);
+    let robot = World::new("robot", &[&[("start.bends_deg", "[90]")]]);
     for body in &robot.model.bodies {
         let (head, tail) = (robot.place(body.element), robot.place(body.element + 1));
         assert!(((tail - head).norm() - 2.0 * body.half_length_m).abs() < 1e-15);

@@ -1,5 +1,6 @@
 //! Scenes that start bent, and one robot of such a scene.
 
+use crate::base::base;
 use magworm::internals::lanes::{Plane, Scalar, Space};
 use magworm::internals::{Block, Draws, advance, kinematics, reset, scene_start};
 use magworm::scene::Scene;
@@ -21,7 +22,7 @@ pub fn scene(preset: &str, edits: &[&Edits<'_>]) -> Scene {
     let value = |text: &str| Some(text.parse().expect("a TOML value"));
     let edits: Vec<_> =
         edits.concat().iter().map(|(path, text)| (path.to_string(), value(text))).collect();
-    Scene::preset(preset).and_then(|scene| scene.with_values(&edits)).expect("a valid scene")
+    base(preset).with_values(&edits).expect("a valid scene")
 }
 
 /// Bodies with many elements, with magnets, with a clamp; under reduced coordinates and under multipliers.
@@ -41,9 +42,9 @@ pub const BODIES: &[(&str, &Edits<'static>)] = &[
             ),
         ],
     ),
-    ("paper-4", &[]),
+    ("robot-4", &[]),
     (
-        "paper-3",
+        "robot",
         &[
             ("solver.integrator", "'explicit'"),
             ("solver.step_s", "1e-7"),

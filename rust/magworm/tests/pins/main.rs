@@ -38,6 +38,11 @@ pins! { SCENES, keeps_its_bits:
     dipoles_in_single_precision_in_space
     dipoles_with_varied_parameters
     dipoles_with_varied_parameters_in_space
+    experiment_belt
+    experiment_five
+    experiment_four
+    experiment_three
+    experiment_turn
     five_magnets
     four_magnets
     four_magnets_in_space_without_yaw

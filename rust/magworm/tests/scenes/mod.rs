@@ -1,7 +1,10 @@
 //! Scenes that the contracts of stepping are checked in, in the plane and in space.
 
+#[path = "../base/mod.rs"]
+mod base;
+
+use base::base;
 use magworm::Model;
-use magworm::scene::Scene;
 use std::sync::Arc;
 
 /// Three magnets of three sizes and directions in feet of three sections, the second one above the middle of its foot, the
@@ -26,16 +29,18 @@ const FIRM: (&str, &str) = ("material.youngs_modulus_pa", "5e5");
 
 /// Name, preset and edits of each scene.
 pub const SCENES: &[(&str, &str, Edits)] = &[
-    ("three magnets", "paper-3", &[]),
-    ("four magnets", "paper-4", &[]),
-    ("five magnets", "paper-5", &[]),
-    ("steps of half a millisecond", "paper-3-experiment", &[]),
-    ("belt", "belt-125", &[]),
+    ("three magnets", "robot", &[]),
+    ("experiment", "paper-3", &[]),
+    ("experiment in space", "turn-3", &[]),
+    ("four magnets", "robot-4", &[]),
+    ("five magnets", "robot-5", &[]),
+    ("steps of half a millisecond", "robot", &[("solver.step_s", "0.0005")]),
+    ("belt", "robot-belt", &[]),
     ("cantilever", "cantilever", &[]),
     ("incline", "incline-block", &[]),
     (
         "multipliers",
-        "paper-3",
+        "robot",
         &[
             ("solver.integrator", "'explicit'"),
             ("solver.step_s", "1e-5"),
@@ -45,7 +50,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "relaxing rubber",
-        "paper-3",
+        "robot",
         &[(
             "material.relaxation",
             "[{ ratio = 0.34, time_s = 0.084 }, { ratio = 0.1, time_s = 5e-4 }]",
@@ -53,12 +58,12 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "suspended drive",
-        "paper-3",
+        "robot",
         &[("drive.suspension", "{ mass_kg = 0.05, stiffness_n_m = 200, damping_n_s_m = 0.5 }")],
     ),
     (
         "rebound",
-        "paper-3",
+        "robot",
         &[
             ("contact.restitution", "0.7"),
             ("contact.between_feet", "true"),
@@ -66,10 +71,10 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("start.angle_deg", "20"),
         ],
     ),
-    ("uniform field", "paper-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
+    ("uniform field", "robot-4", &[("field", "{ x_t = 0.01, y_t = -0.02 }")]),
     (
         "dipoles with varied parameters",
-        "paper-3",
+        "robot",
         &[
             ("solver.magnet_model", "'dipole'"),
             ("ground.adhesion_n", "1e-4"),
@@ -79,22 +84,22 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "waypoints",
-        "paper-3",
+        "robot",
         &[(
             "drive.motion",
             "{ kind = 'waypoints', time_s = [0.0, 0.3, 1.1], x_m = [0.02, 0.02, 0.1], \
              y_m = [-0.052, -0.022, -0.03] }",
         )],
     ),
-    ("single precision", "paper-3", &[("solver.precision", "'single'"), ("solver.step_s", "5e-3")]),
+    ("single precision", "robot", &[("solver.precision", "'single'"), ("solver.step_s", "5e-3")]),
     (
         "belt in single precision",
-        "belt-125",
+        "robot-belt",
         &[("solver.precision", "'single'"), ("solver.integrator", "'euler'")],
     ),
     (
         "single precision in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("solver.precision", "'single'"),
@@ -104,7 +109,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "dipoles in single precision in space",
-        "paper-4",
+        "robot-4",
         &[
             ("dimensions", "3"),
             ("solver.precision", "'single'"),
@@ -125,12 +130,12 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "held wrenches",
-        "paper-3",
+        "robot",
         &[("solver.wrench_interval", "5"), ("field", "{ x_t = 0.001, y_t = -0.002 }")],
     ),
     (
         "three magnets in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.04"),
@@ -139,7 +144,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "four magnets in space without yaw",
-        "paper-4",
+        "robot-4",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.03"),
@@ -149,7 +154,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "belt in space",
-        "belt-125",
+        "robot-belt",
         &[
             ("dimensions", "3"),
             ("drive.motion.z_m", "0.004"),
@@ -165,7 +170,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ("incline in space", "incline-block", &[("dimensions", "3"), ("start.yaw_deg", "65")]),
     (
         "multipliers in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -180,7 +185,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "relaxing rubber in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -192,7 +197,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "rebound in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -203,7 +208,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "suspended drive in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -212,7 +217,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "uniform field in space",
-        "paper-4",
+        "robot-4",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -221,7 +226,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "dipoles with varied parameters in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.03"),
@@ -234,7 +239,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "held wrenches in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.04"),
@@ -244,7 +249,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "waypoints in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             (
@@ -257,7 +262,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "mixed magnets",
-        "paper-3",
+        "robot",
         &[
             ("magnet", ""),
             ("body", MIXED),
@@ -268,7 +273,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "mixed magnets in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.03"),
@@ -283,7 +288,7 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "mixed dipoles in single precision in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("solver.precision", "'single'"),
@@ -299,12 +304,12 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
     ),
     (
         "five magnets on each other",
-        "paper-5",
+        "robot-5",
         &[("magnetic_terms.mutual", "true"), FIRM, ("solver.wrench_interval", "5")],
     ),
     (
         "three magnets on each other in single precision in space",
-        "paper-3",
+        "robot",
         &[
             ("magnetic_terms.mutual", "true"),
             FIRM,
@@ -314,10 +319,10 @@ pub const SCENES: &[(&str, &str, Edits)] = &[
             ("drive.motion.yaw_reach_deg", "120"),
         ],
     ),
-    ("rolled up", "paper-4", &[("start.bends_deg", "[150, 0, 270]")]),
+    ("rolled up", "robot-4", &[("start.bends_deg", "[150, 0, 270]")]),
     (
         "twisted in space",
-        "paper-3",
+        "robot",
         &[
             ("dimensions", "3"),
             ("drive.motion.lateral_reach_m", "0.02"),
@@ -340,6 +345,6 @@ pub fn model(name: &str) -> Arc<Model> {
         })
         .chain([("name".to_string(), Some(name.into()))])
         .collect();
-    let scene = Scene::preset(preset).and_then(|scene| scene.with_values(&edits));
+    let scene = base(preset).with_values(&edits);
     Arc::new(Model::compile(&scene.expect("a valid scene")).expect("a model"))
 }

@@ -130,7 +130,7 @@ fn validates_friction_angle_of_feet() {
         ("one foot", &[one]),
         ("one foot, all magnet", &[one, filled]),
         ("one tall foot, all magnet", &[one, filled, tall]),
-        ("paper-3", &[]),
+        ("robot", &[]),
     ];
     let law = [
         ("ground.static_friction", "0.8"),
@@ -141,7 +141,7 @@ fn validates_friction_angle_of_feet() {
     let mut case = Case::new("friction_angle_of_feet", "Robots on an incline: friction angle")
         .equation("tan α = μ_s")
         .source("Coulomb")
-        .scene("paper-3", &law)
+        .scene("robot", &law)
         .note(
             "As for blocks. A rigid foot touches the ground with toe and heel, which share its \
             weight unequally on an incline. Bodies: one foot, with its magnet along a part of it \
@@ -154,10 +154,10 @@ fn validates_friction_angle_of_feet() {
             let at = |degrees| {
                 let angle = number(degrees);
                 let pose = [("ground.incline_deg", angle.as_str()), ("start.height_m", height)];
-                World::new("paper-3", &[&law[..], &pose, body].concat())
+                World::new("robot", &[&law[..], &pose, body].concat())
             };
             let found = slides_from_deg(exact - 0.5, exact + 0.5, at);
-            if name == "paper-3" {
+            if name == "robot" {
                 let what = format!("friction angle, {name}, from {height} m");
                 case.absolute(what, "°", [found, exact], 0.5);
             }

@@ -54,7 +54,7 @@ fn rubber_n(world: &World) -> f64 {
 /// rubber between them hold the pull.
 fn pulled(space: bool) -> ([f64; 2], f64) {
     let edits = [("dimensions", if space { "3" } else { "2" }), ("solver.step_s", "5e-4")];
-    let mut world = World::new("paper-3", &[&FEET[..], &edits].concat());
+    let mut world = World::new("robot", &[&FEET[..], &edits].concat());
     for step in 0..3 * GROWS / 2 {
         pulled_step(&mut world, FORCE_N * (step.min(GROWS) as f64 / GROWS as f64));
     }
@@ -104,7 +104,7 @@ struct Swing {
 /// Feet that move towards each other while their undersides swing together.
 fn folded(edge_radius: &str) -> Swing {
     let edits = [("solver.step_s", "1e-3"), ("contact.edge_radius_m", edge_radius)];
-    let mut world = World::new("paper-3", &[&FEET[..], &edits].concat());
+    let mut world = World::new("robot", &[&FEET[..], &edits].concat());
     let (speed, rate) = (0.4, 20.0);
     for (body, way) in [(0, 1.0), (1, -1.0)] {
         let dof = world.model.bodies[body].dof;
@@ -136,7 +136,7 @@ fn validates_feet_stop_at_each_other() {
     let mut case = Case::new("feet_stop_at_each_other", "Feet that touch each other")
         .equation("N = F − EA (1 − l/l₀); Σ p, Σ L = const.; T ≤ T₀")
         .source("Equilibrium, conservation of momenta, second law")
-        .scene("paper-3", &FEET)
+        .scene("robot", &FEET)
         .note(
             "Two feet in free flight, on rubber of 1 kPa, pulled together with 0.05 N, and thrown at each other with 0.4 m/s \
             and 20 rad/s each, so that they fold. A corner of one is at most 0.1 mm deep in \
@@ -167,7 +167,7 @@ fn validates_feet_stop_at_each_other() {
 fn a_bridge_that_feet_pass_through_is_explained() {
     let told = |bridge: &str| {
         let edits = [("contact.between_feet", "true"), ("body.bridge_thickness_m", bridge)];
-        World::new("paper-3", &edits).model.explain()
+        World::new("robot", &edits).model.explain()
     };
     // π/4 times thickness over length, 6 mm.
     assert!(told("0.004").contains("16 corners stop at") && told("0.004").contains(" 52 %"));

@@ -61,7 +61,7 @@ fn validates_impact_takes_energy() {
         .equation("d(T + V)/dt ≤ 0")
         .source("Second law; inelastic impact and Coulomb friction do no positive work")
         .scene(
-            "paper-3",
+            "robot",
             &[
                 &ON_FLAT[..],
                 &[("start.height_m", "0.01"), ("start.angle_deg", "30.0"), ("drive", "")],
@@ -74,7 +74,7 @@ fn validates_impact_takes_energy() {
             before.",
         );
     let mut rises = Vec::new();
-    for base in ["incline-block", "paper-3"] {
+    for base in ["incline-block", "robot"] {
         for angle in ["5.0", "30.0", "80.0", "-40.0"] {
             for friction in ["0.1", "0.8", "3.0"] {
                 let mut edits = ON_FLAT.to_vec();
@@ -113,7 +113,7 @@ fn validates_impact_takes_energy() {
 #[test]
 fn validates_recovery_from_inside_the_ground() {
     let mut failures = Vec::new();
-    for base in ["incline-block", "paper-3"] {
+    for base in ["incline-block", "robot"] {
         for depth in [1e-4, 1e-3, 3e-3] {
             let mut edits = ON_FLAT.to_vec();
             edits.push(("drive", ""));

@@ -13,7 +13,7 @@ const ON_NODES: [(&str, &str); 4] = [
 /// The robot at rest after a second, on its feet or on its back.
 fn at_rest(angle_deg: &str) -> World {
     let turned = [("start.angle_deg", angle_deg)];
-    let mut world = World::new("paper-3", &[&ON_NODES[..], &turned].concat());
+    let mut world = World::new("robot", &[&ON_NODES[..], &turned].concat());
     world.run(1.0);
     world
 }
@@ -39,7 +39,7 @@ fn validates_contact_at_nodes() {
     let mut case = Case::new("contact_at_nodes", "Contact at every node")
         .equation("Σ N = m g; y = h/2")
         .source("Statics; contact section of the paper (Soft Robotics, DOI 10.1089/soro.2019.0167)")
-        .scene("paper-3", &ON_NODES)
+        .scene("robot", &ON_NODES)
         .note("The robot at rest on its feet and on its back, in which it hangs through by some micrometres.");
     for (angle, name) in [("0.0", "on its feet"), ("180.0", "on its back")] {
         let world = at_rest(angle);

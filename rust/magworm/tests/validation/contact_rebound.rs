@@ -20,7 +20,7 @@ const KINDS: [(&str, f64, (&str, &str)); 3] = [
 ];
 
 fn foot(edits: &[&[(&str, &str)]]) -> World {
-    World::new("paper-3", &[&FOOT[..], &edits.concat()].concat())
+    World::new("robot", &[&FOOT[..], &edits.concat()].concat())
 }
 
 /// Height of the lowest magnet above the place where its foot stands [m].
@@ -60,7 +60,7 @@ fn total_energy(world: &World) -> f64 {
 /// Greatest rise of the energy over its lowest value before, over that of the fall, of bodies dropped askew from 10 mm.
 fn energies_gained(e: &str, step: &str) -> Vec<f64> {
     let mut gained = Vec::new();
-    for base in ["incline-block", "paper-3"] {
+    for base in ["incline-block", "robot"] {
         for angle in ["0.0", "5.0", "30.0", "80.0", "-40.0"] {
             for friction in ["0.1", "0.8", "3.0"] {
                 let askew = [
@@ -109,7 +109,7 @@ fn feet_part(e: f64) -> [f64; 2] {
         ("solver.step_s", "1e-4"),
         ("control.step_s", "1e-2"),
     ];
-    let mut world = World::new("paper-3", &feet);
+    let mut world = World::new("robot", &feet);
     let dofs = [0, 1].map(|body: usize| world.model.bodies[body].dof);
     let speed = |world: &World| world.block.v[dofs[1]][0] - world.block.v[dofs[0]][0];
     world.block.v[dofs[0]][0] = 0.3;
@@ -128,7 +128,7 @@ fn feet_part(e: f64) -> [f64; 2] {
 /// Places and velocities of a robot that stands on level ground without a drive, after a second.
 fn standing(e: &str) -> Vec<f64> {
     let still = [("drive", ""), ("contact.restitution", e)];
-    let mut world = World::new("paper-3", &still);
+    let mut world = World::new("robot", &still);
     world.steps(500);
     world.block.q.iter().chain(world.block.v.iter()).map(|row| row[0]).collect()
 }
@@ -140,7 +140,7 @@ fn validates_rebound() {
     let mut case = Case::new("rebound", "Impact with restitution")
         .equation("h⁺ = e² h; Δu⁺ = −e Δu⁻; d(T + V)/dt ≤ 0")
         .source("Newton's law of impact; second law")
-        .scene("paper-3", &FOOT)
+        .scene("robot", &FOOT)
         .note(
             "A single rigid foot dropped flat from 20 mm; two feet that meet in free flight; robot and block dropped askew from 10 \
             mm at 0°, 5°, 30°, 80° and −40° on ground with μ_s = 0.1, 0.8, 3 and μ_d = 0.1. The energy is read at places and \

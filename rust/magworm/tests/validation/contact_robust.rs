@@ -166,7 +166,7 @@ const IN_SPACE: [(&str, &str); 3] = [
     ("drive.motion", "{kind='constant',x_m=0.0,y_m=-0.03,speed_m_s=0.1,z_m=0.006,yaw_deg=-20}"),
 ];
 
-/// `paper-3` over a drive that passes beneath it 8 mm lower than it should.
+/// `robot` over a drive that passes beneath it 8 mm lower than it should.
 fn pass(case: Case, motion: &[(&str, &str)]) -> World {
     let texts = case.map(number);
     let edits = [
@@ -178,7 +178,7 @@ fn pass(case: Case, motion: &[(&str, &str)]) -> World {
         ("ground.dynamic_friction", texts[3].as_str()),
         ("material.damping_time_s", texts[4].as_str()),
     ];
-    World::new("paper-3", &[motion, &edits].concat())
+    World::new("robot", &[motion, &edits].concat())
 }
 
 /// Runs the cases; `spare`: how many steps of a case may end beyond the cone besides 3 % of them.
@@ -239,7 +239,7 @@ fn validates_contact_of_a_pass() {
             ("solver.step_s", text.as_str()),
             ("drive.motion", "{kind='constant',x_m=-0.05,y_m=-0.022,speed_m_s=0.1}"),
         ];
-        let mut world = World::new("paper-3", &edits);
+        let mut world = World::new("robot", &edits);
         let run = watch(&mut world, (1.5 / step) as u32);
         println!(
             "contact of a pass, Δt {step}: {} steps, {} used up the iterations, {} beyond the cone, driven by {:.1e} J",

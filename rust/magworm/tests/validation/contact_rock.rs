@@ -28,7 +28,7 @@ fn edge(world: &World) -> [f64; 2] {
 /// Way of the edge along the ground [m], and what the fall's energy is off by, as a part of it.
 fn fall(step: f64) -> [f64; 2] {
     let text = number(step);
-    let mut world = World::new("paper-3", &[&FOOT[..], &[("solver.step_s", &text)]].concat());
+    let mut world = World::new("robot", &[&FOOT[..], &[("solver.step_s", &text)]].concat());
     let (mass, [_, height]) = world.mass_and_centre();
     let start = edge(&world);
     while world.block.planar_pose(&world.model, 0, 0)[2] > LOWEST_RAD {
@@ -48,7 +48,7 @@ fn validates_foot_rocks_on_its_edge() {
     let mut case = Case::new("foot_rocks_on_its_edge", "Foot that falls about an edge")
         .equation("x_edge = const., T = m g (h₀ − h)")
         .source("Rigid body about a fixed axis; friction that sticks and a pivot do no work")
-        .scene("paper-3", &FOOT)
+        .scene("robot", &FOOT)
         .note(
             "One rigid foot, 14 mm long and 7 mm high, from 45° to 11°. The contact spring under the edge gives by some \
             micrometres on the way.",

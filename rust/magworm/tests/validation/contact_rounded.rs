@@ -17,7 +17,7 @@ const FOOT: [(&str, &str); 7] = [
 ];
 
 fn foot(edits: &[&[(&str, &str)]]) -> World {
-    World::new("paper-3", &[&FOOT[..], &edits.concat()].concat())
+    World::new("robot", &[&FOOT[..], &edits.concat()].concat())
 }
 
 /// x of the middle of the foot [m].
@@ -110,7 +110,7 @@ fn validates_rounded_feet_roll() {
     let mut case = Case::new("rounded_feet_roll", "Feet with rounded edges")
         .equation("a = g sin α/(1 + J/mR²); x_c = −R Δθ, T = m g (h₀ − h); tan α = (l/2 − R)/(h/2)")
         .source("Rigid body that rolls without slipping; contact that rolls does no work")
-        .scene("paper-3", &FOOT)
+        .scene("robot", &FOOT)
         .note(
             "A foot of 14 × 14 mm rounded by 7 mm on an incline of 10° for 0.5 s; one of 14 × 7 mm rounded by 2 mm that falls \
             from 45° to 11°; one of 14 × 12 mm rounded by 3 mm. Contact springs give by a thousandth of a thickness, which \

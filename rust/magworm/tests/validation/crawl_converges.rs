@@ -1,12 +1,12 @@
 //! Lift, peak and stride of the robot as step, mesh and quadrature are refined.
 
-use crate::crawl::{PASS, lift, mean_stride, pass};
+use crate::crawl::{PASS, ROBOT, lift, mean_stride, pass};
 use crate::report::{Axes, Case, Figure};
 
 /// Lift of the first experiment, peak and stride of a pass, mean stride of nine [m].
 fn all_four(edits: &[(&str, &str)]) -> [f64; 4] {
-    let (peak, stride) = pass(edits);
-    [lift(edits).0, peak, stride, mean_stride(edits)]
+    let (peak, stride) = pass(ROBOT, edits);
+    [lift(ROBOT, edits).0, peak, stride, mean_stride(ROBOT, edits)]
 }
 
 const NAMES: [&str; 4] = ["lift", "peak", "stride", "mean stride"];
@@ -39,7 +39,7 @@ fn validates_stride_converges_in_the_step() {
             "Newmark's scheme is of second order; slips that begin and end within a step are of first",
         )
         .source("The simulator at a step of 0.1 ms")
-        .scene("paper-3", &[("drive.motion", PASS), ("solver.step_s", "…")])
+        .scene(ROBOT, &[("drive.motion", PASS), ("solver.step_s", "…")])
         .note(&format!(
             "{MEASURED} The mean stride, which does not depend on where a slip falls, tells the error \
             of the step; a single pass may differ by a slip."
@@ -47,7 +47,12 @@ fn validates_stride_converges_in_the_step() {
     let fine = all_four(&[("solver.step_s", "1e-4")]);
     let steps = ["4e-3", "2e-3", "1e-3", "5e-4"];
     let found = steps.map(|step| errors(all_four(&[("solver.step_s", step)]), fine));
-    case.relative("stride, preset's step", "mm", [pass(&[]).1, fine[2]].map(|m| m * 1e3), 0.01);
+    case.relative(
+        "stride, preset's step",
+        "mm",
+        [pass(ROBOT, &[]).1, fine[2]].map(|m| m * 1e3),
+        0.01,
+    );
     case.inside("difference of the mean stride, preset's step", "", found[1][3], -5e-3..=5e-3);
     let rows = steps.iter().zip(found).map(|(step, errors)| row(step, errors)).collect();
     case.table(
@@ -82,7 +87,7 @@ fn validates_stride_in_the_mesh() {
     let mut case = Case::new("stride_in_the_mesh", "Robot: mesh")
         .equation("Second order in the elements, as for rods")
         .source("The simulator with 16 elements a bridge and 4 a foot's end")
-        .scene("paper-3", &varied)
+        .scene(ROBOT, &varied)
         .note(&format!(
             "{MEASURED} The step is 0.2 ms: at the presets' 2 ms a single pass jumps \
             by 4 % from mesh to mesh, as a slip falls into one step or the next. The presets have \
@@ -112,7 +117,7 @@ fn validates_stride_in_the_quadrature() {
     let mut case = Case::new("stride_in_the_quadrature", "Robot: quadrature")
         .equation("Gauss–Legendre along the body magnet: errors fall geometrically with the order")
         .source("The simulator at order 6")
-        .scene("paper-3", &[("drive.motion", PASS), ("solver.quadrature_order", "…")])
+        .scene(ROBOT, &[("drive.motion", PASS), ("solver.quadrature_order", "…")])
         .note(&format!("{MEASURED} The presets use order 2."));
     let fine = all_four(&[("solver.quadrature_order", "6")]);
     let orders = ["1", "2", "3", "4"];

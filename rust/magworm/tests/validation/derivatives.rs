@@ -131,7 +131,7 @@ fn bodies() -> Vec<(&'static str, World)> {
         ("rod with κ = 2 tan(φ/2)", World::new(ROD, &[("solver.curvature", "'tangent'")])),
         ("rod with magnets", World::new(ROD, &magnets)),
         ("clamped rod with magnets", World::new(ROD, &clamped)),
-        ("paper-3", World::new("paper-3", &still)),
+        ("robot", World::new("robot", &still)),
     ]
 }
 

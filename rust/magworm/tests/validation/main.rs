@@ -3,6 +3,8 @@
 //! `cargo test --test validation -- --nocapture` gives a table of errors; what a [`report::Case`] holds is also
 //! in `docs/validation.md`.
 
+#[path = "../base/mod.rs"]
+mod base;
 mod beam;
 mod report;
 mod space_world;

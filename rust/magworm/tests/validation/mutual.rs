@@ -48,7 +48,7 @@ fn rod(elements: usize) -> String {
 fn placed(alike: bool, places: [Place; 2]) -> [[f64; 3]; 2] {
     let body = rod(4);
     let edits = [("magnet", ""), ("body", body.as_str())];
-    let mut world = World::new("paper-3", &[&FREE[..], &edits].concat());
+    let mut world = World::new("robot", &[&FREE[..], &edits].concat());
     if alike {
         world.block.remanence[1][0] = -world.block.remanence[1][0];
     }
@@ -62,7 +62,7 @@ fn placed(alike: bool, places: [Place; 2]) -> [[f64; 3]; 2] {
 
 /// The outer magnets of the preset with three, alike, at a distance: x force on the second one [mN].
 fn outer(distance_m: f64) -> f64 {
-    let mut world = World::new("paper-3", &FREE);
+    let mut world = World::new("robot", &FREE);
     world.block.remanence[1][0] = 0.0;
     let [first, .., last] = world.model.coordinates.bodies[..] else { panic!("three bodies") };
     world.block.q[last][0] = world.block.q[first][0] + distance_m;
@@ -79,7 +79,7 @@ fn validates_two_body_magnets() {
             "G. Akoun, J.-P. Yonnet, IEEE Trans. Magn. 20 (1984) 1962: the closed form of the force between parallel cuboids; \
              torques by quadrature with 24 points an edge",
         )
-        .scene("paper-3", &FREE)
+        .scene("robot", &FREE)
         .note(
             "Magnets of the preset with three magnets, two of them on a rod; far away the outer ones of the preset itself, \
              which are dipoles there. Errors of dipoles in parts of its weight, 55.08 mN.",
@@ -137,7 +137,7 @@ fn validates_two_body_magnets() {
 
 /// Torque that holds two magnets 20 mm apart against a turn about the line between them [mN·m/rad].
 fn roll_stiffness() -> f64 {
-    let mut world = World::new("paper-3", &[&FREE[..], &[("dimensions", "3")]].concat());
+    let mut world = World::new("robot", &[&FREE[..], &[("dimensions", "3")]].concat());
     world.block.remanence[2][0] = 0.0;
     let element = world.model.bodies[1].element;
     let turn = Rotation3::new(Vector3::x() * 1e-4);
@@ -170,7 +170,7 @@ fn bent(dimensions: &str, body: (&str, &str)) -> World {
         ("start.bends_aside_deg", aside),
     ];
     let magnet = if body.0 == "body" { [("magnet", "")].as_slice() } else { &[] };
-    World::new("paper-3", &[&FREE[..], magnet, &[body], &shape].concat())
+    World::new("robot", &[&FREE[..], magnet, &[body], &shape].concat())
 }
 
 /// Sum of forces, and of moments about the origin, over the sums of their sizes.
@@ -237,7 +237,7 @@ fn validates_momenta_of_magnets_in_free_flight() {
     let mut case = Case::new("momenta_of_magnets_in_free_flight", "Magnets in free flight")
         .equation("Σ m v = const., Σ m x × v + Σ I ω = const.")
         .source("Newton; no force from outside")
-        .scene("paper-3", &FREE)
+        .scene("robot", &FREE)
         .note("A bent robot springs back and flies at 0.2 m/s for half a second, with forces between its magnets and without.");
     for dimensions in ["2", "3"] {
         let [with, without] = ["true", "false"].map(|mutual| changes(dimensions, mutual));
@@ -268,7 +268,7 @@ fn mirrored(magnets: usize) -> [f64; 2] {
         // The head of one is the tail of the other.
         let polarity = if speed < 0.0 && magnets.is_multiple_of(2) { "-1" } else { "1" };
         let mut world = World::new(
-            "paper-3",
+            "robot",
             &[
                 ("magnetic_terms.mutual", "true"),
                 ("body.magnets", count.as_str()),
@@ -321,7 +321,7 @@ fn growth(elements: usize, modulus_pa: f64) -> f64 {
         ("solver.step_s", "0.001"),
         ("start.bends_deg", "[0.01]"),
     ];
-    let mut world = World::new("paper-3", &[&FREE[..], &edits].concat());
+    let mut world = World::new("robot", &[&FREE[..], &edits].concat());
     let bend = |world: &World| {
         let angle = |body: usize| world.block.planar_pose(&world.model, body, 0)[2];
         (angle(1) - angle(0)).abs()
@@ -341,7 +341,7 @@ fn validates_the_fold_of_a_free_rod() {
              ℓ = 13.697 mm: E_c = 14147.0 Pa",
         )
         .source("Euler's column between rigid ends, with force P and torques K of the magnets from the closed form")
-        .scene("paper-3", &FREE)
+        .scene("robot", &FREE)
         .note(
             "No weight, no ground. The bend of a rod grows above the critical load and shrinks below it; E_c is where the rate of \
              growth over a second, linear in E nearby, passes through zero.",

@@ -54,9 +54,7 @@ fn validates_presets_in_space() {
             magnets want to roll over; the greatest roll of any magnet is what has grown from rounding.",
         );
     let (mut roll, mut heading) = (0.0f64, 0.0f64);
-    for (preset, centre_m) in
-        [("paper-3", 0.027), ("paper-4", 0.037), ("paper-5", 0.047), ("paper-3-experiment", 0.027)]
-    {
+    for (preset, centre_m) in [("paper-3", 0.027), ("paper-4", 0.037), ("paper-5", 0.047)] {
         let lift = format!(
             "{{kind='waypoints',time_s=[0.0,0.5],x_m=[{centre_m},{centre_m}],y_m=[-0.052,-0.022]}}"
         );

@@ -172,7 +172,7 @@ fn bodies() -> Vec<(&'static str, Vec<(&'static str, &'static str)>)> {
         (ROD, magnets),
         (ROD, clamped),
         (ROD, tangent),
-        ("paper-3", robot),
+        ("robot", robot),
     ]
 }
 

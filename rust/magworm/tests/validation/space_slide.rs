@@ -27,7 +27,7 @@ const FOOT: [(&str, &str); 12] = [
 ];
 
 fn foot(edits: &[(&str, &str)]) -> World {
-    World::new("paper-3", &[&FOOT[..], edits].concat())
+    World::new("robot", &[&FOOT[..], edits].concat())
 }
 
 /// Name, scene and edits of a body.
@@ -37,7 +37,7 @@ type Body = (&'static str, &'static str, &'static [(&'static str, &'static str)]
 fn bodies() -> [Body; 2] {
     const ROD: [(&str, &str); 3] =
         [("dimensions", "3"), ("ground.incline_deg", "0.0"), ("control.step_s", "1.0")];
-    [("foot", "paper-3", &FOOT), ("rod", "incline-block", &ROD)]
+    [("foot", "robot", &FOOT), ("rod", "incline-block", &ROD)]
 }
 
 /// Where a body thrown at 0.7 m/s along `heading` comes to rest from its start.
@@ -60,7 +60,7 @@ fn validates_space_stopping_distance() {
     let mut case = Case::new("space_stopping_distance", "Stopping distance in eight directions")
         .equation("v²/(2 μ_d g) − ½ v Δt along v, 0 across it")
         .source("Coulomb; the second term is that of a step that moves with its final velocity")
-        .scene("paper-3", &FOOT)
+        .scene("robot", &FOOT)
         .note(
             "v = 0.7 m/s at 10°, 55°, … from x. *Foot*: one rigid magnet on four corners; *rod*: eight soft \
             elements on nine points. The last step may stop short by μ_d g Δt²; the contact springs under the points give by \
@@ -117,7 +117,7 @@ fn validates_space_friction_angle() {
     let mut case = Case::new("space_friction_angle", "Friction angle of a yawed foot")
         .equation("tan α = μ_s; a = g (sin α − μ_d cos α) beyond")
         .source("Coulomb")
-        .scene("paper-3", &[&FOOT[..], &[("ground.incline_deg", "…"), ("start.yaw_deg", "…")]].concat())
+        .scene("robot", &[&FOOT[..], &[("ground.incline_deg", "…"), ("start.yaw_deg", "…")]].concat())
         .note(
             "The foot stands on four corners, its length at an angle to the line of fall. Creep and way across \
             in the second second; the acceleration is that of the second second at 45°.",
@@ -151,7 +151,7 @@ fn validates_space_spinning_block() {
         .equation("angle = ω² I/(2 μ_d m g r) − ½ ω Δt, r: distance of the corners")
         .source("Coulomb")
         .scene(
-            "paper-3",
+            "robot",
             &[&FOOT[..], &[("solver.step_s", "1e-4"), ("control.step_s", "1e-4")]].concat(),
         )
         .note(

@@ -81,7 +81,7 @@ impl Path {
             ("start", &start),
         ];
         all.extend(edits);
-        let mut world = World::new("paper-3", &all);
+        let mut world = World::new("robot", &all);
         let mut sliding = 0;
         let instants = (0..INSTANTS).map(|_| {
             world.run(0.01);
@@ -150,7 +150,7 @@ fn validates_mirror_images_in_space() {
     )
     .equation("z → −z: yaw → −yaw of robot and drive; x, y unchanged")
     .source("Symmetry of all laws; poles of a mirrored magnet are those of its mirror image")
-    .scene("paper-3", &[("dimensions", "3"), ("solver.step_s", "0.001"), ("drive.motion", "…")])
+    .scene("robot", &[("dimensions", "3"), ("solver.step_s", "0.001"), ("drive.motion", "…")])
     .note(
         "Greatest distance of a node from its mirror image, every 10 ms: one pass of the drive \
         beneath the robot, at an angle to it, and a drive that drags it aside and turns it. On the \
@@ -184,7 +184,7 @@ fn validates_turned_scenes_in_space() {
     )
     .equation("x → x cos α + z sin α, z → z cos α − x sin α, yaw → yaw + α")
     .source("Symmetry of all laws")
-    .scene("paper-3", &[("dimensions", "3"), ("solver.step_s", "0.001"), ("drive.motion", "…")])
+    .scene("robot", &[("dimensions", "3"), ("solver.step_s", "0.001"), ("drive.motion", "…")])
     .note(
         "Greatest distance of a node from its place in the scene that is not turned, every 10 \
         ms, over turns of 30°, 90°, 180°, 217° and −65°; motions and rounding as above.",

@@ -165,5 +165,5 @@ fn work(model: &magworm::Model, y: f64) -> f64 {
 fn a_drive_that_gives_way_is_explained() {
     let told = world(&drive(-0.022, 1.22, 0.6), 2e-3).model.explain();
     assert!(told.contains("the stage gives way at 10.066 Hz, damping ratio 0.095"), "{told}");
-    assert!(!World::new("paper-3", &[]).model.explain().contains("gives way"));
+    assert!(!World::new("robot", &[]).model.explain().contains("gives way"));
 }

@@ -1,5 +1,6 @@
 //! One environment whose state a test may set and read freely.
 
+use crate::base::base;
 use magworm::internals::lanes::Scalar;
 use magworm::internals::{Anchor, Block, Draws, Rod, advance, equations, reset, scene_start};
 use magworm::scene::Scene;
@@ -30,11 +31,12 @@ episode_s = 10.0
 pub const CURVATURES: [(&str, &str); 2] = [("'angle'", "κ = φ"), ("'tangent'", "κ = 2 tan(φ/2)")];
 
 /// The scene of a text or preset with fields replaced by values written in TOML; an empty text removes.
-pub fn scene(base: &str, edits: &[(&str, &str)]) -> Scene {
-    let start = if base.contains('\n') { Scene::from_toml(base) } else { Scene::preset(base) };
+pub fn scene(name: &str, edits: &[(&str, &str)]) -> Scene {
+    let start =
+        if name.contains('\n') { Scene::from_toml(name).expect("a scene") } else { base(name) };
     let values: Vec<(String, Option<toml::Value>)> =
         edits.iter().map(|(path, text)| (path.to_string(), value(text))).collect();
-    start.and_then(|scene| scene.with_values(&values)).expect("a valid scene")
+    start.with_values(&values).expect("a valid scene")
 }
 
 fn value(text: &str) -> Option<toml::Value> {
