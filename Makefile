@@ -66,8 +66,8 @@ study-stability: install-test  ## stiff and extreme scenes, the explicit scheme'
 
 test: lint test-rust test-docs test-wheel test-python count  ## everything that CI runs
 
-identify: install-test  ## identify the presets again, half an hour: docs/identification/, rust/magworm/scenes/
-	for problem in paper-3 paper-3-experiment; do \
+identify: install-test  ## identify the presets again, an hour: docs/identification/, rust/magworm/scenes/
+	for problem in paper-3-simulation paper-joint; do \
 		$(dir $(VENV_PYTHON))magworm identify studies/identification/$$problem.toml \
 			--out runs/identify/$$problem && \
 		$(VENV_PYTHON) studies/identification/settle_presets.py $$problem && \

@@ -25,6 +25,7 @@ from studies.paper.damaged import damaged_section
 from studies.paper.displacements import displacements_section
 from studies.paper.figures import save
 from studies.paper.lift import lift_section
+from studies.paper.load import load_section
 from studies.paper.mirror import mirror_section
 from studies.paper.morphology import morphology_section
 from studies.paper.other_fits import other_fits_section
@@ -45,6 +46,7 @@ EXPERIMENTS: dict[str, Callable[[], Section]] = {
     "other-fits": other_fits_section,
     "belts": belts_section,
     "bouncing": bouncing_section,
+    "load": load_section,
     "damaged": damaged_section,
     "mirror": mirror_section,
 }

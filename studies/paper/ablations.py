@@ -8,7 +8,7 @@ from magworm_gym import Recording, record_scenes
 from studies.paper.figures import BLUE, INK, ORANGE, PAPER, RED, legend_above, panels
 from studies.paper.quantity import Origin, Quantity, number
 from studies.paper.robot_picture import MM
-from studies.paper.scenes import FORCES, PASS_S, one_pass, only, robot
+from studies.paper.scenes import FORCES, PASS_S, SIMULATION, one_pass, only, robot
 from studies.paper.section import Image, Section
 from studies.paper.wording import ranking
 
@@ -22,7 +22,7 @@ DRAGGED_MM = 1.0
 
 def ablations_section() -> Section:
     """Runs the pass whole and with each component alone."""
-    whole = robot(3)
+    whole = robot(3, SIMULATION)
     scenes = {"all": whole} | {NAMES[force]: only(whole, force) for force in FORCES}
     runs = record_scenes([one_pass(scene) for scene in scenes.values()], PASS_S, SAMPLE_S, nodes=False)
     records = dict(zip(scenes, runs, strict=True))

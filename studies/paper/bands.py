@@ -32,13 +32,11 @@ class Band:
         low: Smallest value.
         high: Greatest value.
         why: Where the band comes from.
-        preset: The preset that its figure needs; None where it needs none.
     """
 
     low: float
     high: float
     why: str
-    preset: str | None = None
 
     def holds(self, value: float) -> bool:
         """Whether a value is inside; an infinite one only where the band says that it is never reached."""
@@ -74,19 +72,14 @@ def read_bands(text: str) -> dict[str, Band]:
     """The bands of ``bands.toml``, by key of the quantity. A side that is left out is open."""
     tables = tomllib.loads(text).get("bands", {})
     return {
-        f"{section}.{name}": Band(
-            band.get("low", -math.inf), band.get("high", math.inf), band["why"], band.get("preset")
-        )
+        f"{section}.{name}": Band(band.get("low", -math.inf), band.get("high", math.inf), band["why"])
         for section, bands in tables.items()
         for name, band in bands.items()
     }
 
 
 def outside(quantities: Sequence[Quantity], bands: dict[str, Band]) -> list[str]:
-    """A sentence for each figure that is not within its band, and for each key without its partner.
-
-    A band whose preset this version lacks may be without a figure.
-    """
+    """A sentence for each figure that is not within its band, and for each key without its partner."""
     found = []
     for quantity in quantities:
         band = bands.get(quantity.key)
@@ -97,11 +90,7 @@ def outside(quantities: Sequence[Quantity], bands: dict[str, Band]) -> list[str]
             allowed = f"{band.low:g} to {band.high:g}"
             found.append(f"{quantity.key} is {quantity.model:.4g}{unit}; allowed: {allowed} ({band.why})")
     known = {quantity.key for quantity in quantities}
-    found.extend(
-        f"{key} has a band but no figure"
-        for key, band in bands.items()
-        if key not in known and band.preset is None
-    )
+    found.extend(f"{key} has a band but no figure" for key in bands if key not in known)
     return found
 
 

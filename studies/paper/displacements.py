@@ -10,7 +10,7 @@ from studies.paper.figures import BY_PLACE, PAPER, legend_above, panels
 from studies.paper.lift import middle_lift
 from studies.paper.quantity import Origin, Quantity, number
 from studies.paper.robot_picture import MM
-from studies.paper.scenes import EXPERIMENT, PASS_S, SIMULATION, has_experiment, one_pass, robot, values_of
+from studies.paper.scenes import PASS_S, ROBOT, SIMULATION, one_pass, robot, values_of
 from studies.paper.section import Image, Section, table
 
 Floats = NDArray[np.float64]
@@ -22,16 +22,11 @@ PAPER_EXPERIMENT_MM = {"peak": 8.30, "stride": 4.17}
 
 def displacements_section() -> Section:
     """Runs the pass with each preset for three magnets."""
-    families = [SIMULATION, *([EXPERIMENT] if has_experiment() else [])]
-    scenes = {family: one_pass(robot(3, family)) for family in families}
+    scenes = {family: one_pass(robot(3, family)) for family in (ROBOT, SIMULATION)}
     runs = record_scenes(list(scenes.values()), PASS_S, SAMPLE_S)
     records = dict(zip(scenes, runs, strict=True))
-    quantities = _quantities("pass", "simulation", records[SIMULATION], PAPER_SIMULATION_MM, Origin.TARGET)
-    if EXPERIMENT in records:
-        key, origin, nearest = "experiment", Origin.TARGET, records[EXPERIMENT]
-    else:
-        key, origin, nearest = "measured", Origin.HELD_BACK, records[SIMULATION]
-    quantities += _quantities(key, "experiment", nearest, PAPER_EXPERIMENT_MM, origin)
+    quantities = _quantities("experiment", "experiment", records[ROBOT], PAPER_EXPERIMENT_MM)
+    quantities += _quantities("pass", "simulation", records[SIMULATION], PAPER_SIMULATION_MM)
     return Section(
         title="Displacements of the magnets",
         text=_text(records, scenes),
@@ -57,16 +52,14 @@ def stride_mm(record: Recording) -> float:
     return MM * float(record.progress_m[-1])
 
 
-def _quantities(
-    key: str, source: str, record: Recording, paper: dict[str, float], origin: Origin
-) -> list[Quantity]:
+def _quantities(key: str, source: str, record: Recording, paper: dict[str, float]) -> list[Quantity]:
     return [
         Quantity(
             f"{key}.peak",
             f"Pass: peak of the middle magnet, paper's {source}",
             "mm",
             peak_mm(record),
-            origin,
+            Origin.TARGET,
             paper=paper["peak"],
         ),
         Quantity(
@@ -74,7 +67,7 @@ def _quantities(
             f"Pass: way forward, paper's {source}",
             "mm",
             stride_mm(record),
-            origin,
+            Origin.TARGET,
             paper=paper["stride"],
         ),
     ]
@@ -92,17 +85,11 @@ def _text(records: dict[str, Recording], scenes: dict[str, Scene]) -> str:
             f"mm ahead (head, middle, tail): they differ by {number(spread, 2)} mm, a change of length that "
             "friction holds."
         )
-    if EXPERIMENT in records:
-        paragraphs.append(
-            f"`{EXPERIMENT}` is identified from the paper's experiment. It differs from `{SIMULATION}` "
-            "in:\n\n"
-            + table(["value", SIMULATION, EXPERIMENT], differing(scenes[SIMULATION], scenes[EXPERIMENT]))
-        )
-    else:
-        paragraphs.append(
-            "There is one preset for three magnets, identified from the paper's simulation; the paper's "
-            "experiment is set beside it without a preset of its own."
-        )
+    paragraphs.append(
+        f"`{ROBOT}` is identified from the paper's experiment, `{SIMULATION}` from its simulation, whose "
+        "model has no forces between the robot's own magnets. They differ in:\n\n"
+        + table(["value", ROBOT, SIMULATION], differing(scenes[ROBOT], scenes[SIMULATION]))
+    )
     return "\n\n".join(paragraphs)
 
 

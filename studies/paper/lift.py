@@ -9,7 +9,7 @@ from magworm_gym import Recording, Scene, record_scenes
 from studies.paper.figures import BLUE, BY_PLACE, ORANGE, PAPER, TEAL, legend_beside, panels, paper_mark
 from studies.paper.quantity import Origin, Quantity, number
 from studies.paper.robot_picture import MM, draw_drive, draw_ground, draw_robot
-from studies.paper.scenes import PLANE_M, SIMULATION, robot, under_middle
+from studies.paper.scenes import PLANE_M, ROBOT, SIMULATION, robot, under_middle
 from studies.paper.section import Image, Section
 
 Floats = NDArray[np.float64]
@@ -46,10 +46,11 @@ def mirror_error(recording: Recording) -> float:
 def lift_section() -> Section:
     """Runs the case and the sweeps over the height of the drive."""
     robot3 = robot(3, SIMULATION)
+    measured = under_middle(robot(3), [0.0, RISE_S], [LOW_M, PLANE_M])
     case = under_middle(robot3, [0.0, RISE_S], [LOW_M, PLANE_M])
     held = [under_middle(robot3, [0.0, RISE_S], [LOW_M, height]) for height in HEIGHTS_M]
     slow = under_middle(robot3, [0.0, SLOW_S, 2.0 * SLOW_S], [LOW_M, PLANE_M, LOW_M])
-    (record,) = record_scenes([case], RISE_S + HOLD_S, SAMPLE_S)
+    record, other = record_scenes([case, measured], RISE_S + HOLD_S, SAMPLE_S)
     *settled, both_ways = record_scenes(
         [*held, slow], [RISE_S + REST_S] * len(held) + [2.0 * SLOW_S], SLOW_SAMPLE_S, nodes=False
     )
@@ -66,7 +67,7 @@ def lift_section() -> Section:
                 _curves(record, equilibrium, both_ways),
             ),
         ],
-        quantities=_quantities(record),
+        quantities=[*_quantities(record), _of_the_robot(other)],
         data={"height_m": HEIGHTS_M.tolist(), "lift_at_rest_m": equilibrium.tolist()},
     )
 
@@ -111,6 +112,18 @@ def _quantities(record: Recording) -> list[Quantity]:
             holds=(1e-9, np.inf),
         ),
     ]
+
+
+def _of_the_robot(record: Recording) -> Quantity:
+    """The lift of the robot that was identified from the experiment."""
+    return Quantity(
+        "lift.robot",
+        f"Case 1: lift of the middle, `{ROBOT}`",
+        "mm",
+        MM * float(middle_lift(record)[-1]),
+        Origin.HELD_BACK,
+        paper=PAPER_LIFT_MM,
+    )
 
 
 def _text(record: Recording, equilibrium: Floats, both_ways: Recording) -> str:

@@ -12,6 +12,8 @@ class Origin(Enum):
 
     TARGET = "identification target"
     """The presets were identified from it: agreement shows that the identification worked."""
+    FITTED = "fitted trend"
+    """The preset was fitted to what the paper shows here, read more loosely than below."""
     HELD_BACK = "held back"
     """Not used for the identification: a test of the model."""
     CLOSED_FORM = "closed form"

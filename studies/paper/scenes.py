@@ -7,17 +7,17 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from magworm_gym import PRESETS, Scene
+from magworm_gym import Scene
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
 
-SIMULATION = "paper-3"
+ROBOT = "paper-3"
+"""Three magnets, identified from the paper's experiment."""
+SIMULATION = "paper-3-simulation"
 """Three magnets, identified from the paper's simulation."""
-EXPERIMENT = "paper-3-experiment"
-"""Three magnets, identified from the paper's experiment; not every version has it."""
 
 AHEAD_M = 0.050
 """Paper: a pass begins 50 mm ahead of the robot; taken from its head end."""
@@ -32,14 +32,9 @@ SEPARATION_M = 0.300
 FORCES = ("horizontal_force", "vertical_force", "torque")
 
 
-def has_experiment() -> bool:
-    """Whether there is a preset identified from the paper's experiment."""
-    return EXPERIMENT in PRESETS
-
-
-def robot(magnets: int, family: str = SIMULATION) -> Scene:
+def robot(magnets: int, family: str = ROBOT) -> Scene:
     """A robot with this many magnets and the parameters of a preset with three."""
-    if family == SIMULATION:
+    if family == ROBOT:
         return Scene.preset(f"paper-{magnets}")
     return Scene.preset(family).with_values({"body.magnets": magnets})
 

@@ -11,7 +11,7 @@ from studies.paper.figures import BY_MAGNETS, FAINT, PAPER, legend_above, panels
 from studies.paper.passes import AHEADS_M, FRICTIONS, PASSES, Walk, measured_strides
 from studies.paper.quantity import Origin, Quantity, number
 from studies.paper.robot_picture import MM
-from studies.paper.scenes import EXPERIMENT, SIMULATION, has_experiment, robot
+from studies.paper.scenes import ROBOT, SIMULATION, robot
 from studies.paper.section import Image, Section
 from studies.paper.wording import COUNTS, listed, ranking, trend
 
@@ -25,6 +25,12 @@ PAPER_PEAK_MM, PAPER_FIVE_MM = 4.3, 6.0
 GRID_MM_S = 10.0
 SPEEDS_MM_S = np.concatenate([np.arange(20.0, 211.0, GRID_MM_S), np.arange(240.0, 401.0, 40.0)])
 BACKWARD = "four, backward"
+IMAGES = {ROBOT: "stride", SIMULATION: "stride-simulation"}
+FITTED = frozenset(
+    {"slow", "three_peak", "three_peak_speed", "three_change", "five_change", "five_fast", "lead_slow"}
+    | {"lead_fast", "crossing"}
+)
+"""Rows that the robot's identification knows, read more loosely; it knows nothing of four magnets."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +75,7 @@ def measured_curves(family: str) -> dict[str, Curve]:
 
 def stride_section() -> Section:
     """Runs the sweep with each family of presets."""
-    families = [SIMULATION, *([EXPERIMENT] if has_experiment() else [])]
-    curves = {family: measured_curves(family) for family in families}
+    curves = {family: measured_curves(family) for family in (ROBOT, SIMULATION)}
     count = PASSES * len(AHEADS_M) * len(FRICTIONS)
     text = (
         "The paper measured these curves with its robots; its figures are those of an experiment. Drive "
@@ -84,7 +89,7 @@ def stride_section() -> Section:
     quantities = [q for family, found in curves.items() for q in _quantities(family, found)]
     images = [
         Image(
-            "stride" if family == SIMULATION else "stride-experiment",
+            IMAGES[family],
             f"Stride and stride over body length against the speed of the drive, parameters of `{family}`. "
             "Diamonds: the paper's numbers; shaded: beyond its platform.",
             _figure(found),
@@ -120,7 +125,7 @@ def slow_spread_percent(curves: Mapping[str, Curve]) -> float:
 
 def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
     three, four, five, back = (curves[name] for name in ("three", "four", "five", BACKWARD))
-    key, mark = ("stride", "") if family == SIMULATION else ("stride_experiment", f", {EXPERIMENT}")
+    key, mark = ("stride", "") if family == ROBOT else ("stride_simulation", f", {family}")
     on, slow, fast = within(0.0), within(0.0, CROSSING_MM_S - 1.0), within(CROSSING_MM_S + 1.0)
     top = int(three.mean[on].argmax())
     lead_slow = float((three.mean - np.maximum(four.mean, five.mean))[slow].mean())
@@ -129,9 +134,10 @@ def _quantities(family: str, curves: Mapping[str, Curve]) -> list[Quantity]:
     falling = (-np.inf, -1e-9)
 
     def held(name: str, what: str, unit: str, model: float, **more: Any) -> Quantity:
-        return Quantity(
-            f"{key}.{name}", f"Stride{mark}: {what}", unit, float(model), Origin.HELD_BACK, **more
-        )
+        own = family == ROBOT
+        origin = Origin.FITTED if own and name in FITTED else Origin.HELD_BACK
+        what = f"Stride{mark}: {what}"
+        return Quantity(f"{key}.{name}", what, unit, float(model), origin, listed=own, **more)
 
     return [
         held(
@@ -245,7 +251,7 @@ def _text(family: str, curves: Mapping[str, Curve]) -> str:
     ]
     lines = [f"- **{name}**: {_course(curve)}" for name, curve in curves.items()]
     robots = ", ".join(f"`paper-{count}`" for count in BY_MAGNETS)
-    title = robots if family == SIMULATION else f"`{family}`, and the same with four and five magnets"
+    title = robots if family == ROBOT else f"`{family}`, and the same with four and five magnets"
     return f"{title}:\n\n" + "\n".join(lines) + f"\n- Order: {listed(orders)}."
 
 
