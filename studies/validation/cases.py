@@ -42,14 +42,14 @@ class Row:
 
     @property
     def share(self) -> float:
-        """How much of the band is used up: 1 at its edge."""
+        """How much of the band is used up: 1 at its edge; of a band of one value, nothing or too much."""
         if self.error is not None:
-            return abs(self.error) / self.high if self.error else 0.0
-        value = self.measured[0]
-        if math.isinf(self.low):
-            return value / self.high
-        middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
-        return abs(value - middle) / half
+            off, half = abs(self.error), self.high
+        elif math.isinf(self.low):
+            off, half = self.measured[0], self.high
+        else:
+            off, half = abs(self.measured[0] - (self.low + self.high) / 2), (self.high - self.low) / 2
+        return off / half if half else 0.0 if off == 0.0 else math.inf
 
 
 @dataclass(frozen=True)
