@@ -1,20 +1,11 @@
 //! A foot that rocks on one edge.
 
 use crate::report::{Case, short};
-use crate::world::{World, number};
+use crate::world::{RIGID_FOOT, World, number};
 
 /// Half of the foot's length, and its height below the centre [m].
 const EDGE_M: [f64; 2] = [0.007, 0.0035];
-const FOOT: [(&str, &str); 8] = [
-    ("drive", ""),
-    ("body.magnets", "1"),
-    ("magnet.length_m", "0.014"),
-    ("ground.static_friction", "10.0"),
-    ("ground.dynamic_friction", "10.0"),
-    ("ground.adhesion_n", "0.0"),
-    ("control.step_s", "1.0"),
-    ("start.angle_deg", "45.0"),
-];
+const TILTED: (&str, &str) = ("start.angle_deg", "45.0");
 /// Where the fall ends: before the other edge lands.
 const LOWEST_RAD: f64 = 0.2;
 
@@ -28,7 +19,8 @@ fn edge(world: &World) -> [f64; 2] {
 /// Way of the edge along the ground [m], and what the fall's energy is off by, as a part of it.
 fn fall(step: f64) -> [f64; 2] {
     let text = number(step);
-    let mut world = World::new("robot", &[&FOOT[..], &[("solver.step_s", &text)]].concat());
+    let mut world =
+        World::new("robot", &[&RIGID_FOOT[..], &[TILTED, ("solver.step_s", &text)]].concat());
     let (mass, [_, height]) = world.mass_and_centre();
     let start = edge(&world);
     while world.block.planar_pose(&world.model, 0, 0)[2] > LOWEST_RAD {
@@ -48,7 +40,7 @@ fn validates_foot_rocks_on_its_edge() {
     let mut case = Case::new("foot_rocks_on_its_edge", "Foot that falls about an edge")
         .equation("x_edge = const., T = m g (h₀ − h)")
         .source("Rigid body about a fixed axis; friction that sticks and a pivot do no work")
-        .scene("robot", &FOOT)
+        .scene("robot", &[&RIGID_FOOT[..], &[TILTED]].concat())
         .note(
             "One rigid foot, 14 mm long and 7 mm high, from 45° to 11°. The contact spring under the edge gives by some \
             micrometres on the way.",

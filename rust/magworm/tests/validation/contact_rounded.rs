@@ -1,23 +1,12 @@
 //! Feet with rounded edges: they roll.
 
 use crate::report::Case;
-use crate::world::{World, number};
+use crate::world::{RIGID_FOOT, World, number};
 
 const G: f64 = 9.81;
 
-/// A single rigid foot on ground that holds it.
-const FOOT: [(&str, &str); 7] = [
-    ("drive", ""),
-    ("body.magnets", "1"),
-    ("magnet.length_m", "0.014"),
-    ("ground.static_friction", "10.0"),
-    ("ground.dynamic_friction", "10.0"),
-    ("ground.adhesion_n", "0.0"),
-    ("control.step_s", "1.0"),
-];
-
 fn foot(edits: &[&[(&str, &str)]]) -> World {
-    World::new("robot", &[&FOOT[..], &edits.concat()].concat())
+    World::new("robot", &[&RIGID_FOOT[..], &edits.concat()].concat())
 }
 
 /// x of the middle of the foot [m].
@@ -110,7 +99,7 @@ fn validates_rounded_feet_roll() {
     let mut case = Case::new("rounded_feet_roll", "Feet with rounded edges")
         .equation("a = g sin α/(1 + J/mR²); x_c = −R Δθ, T = m g (h₀ − h); tan α = (l/2 − R)/(h/2)")
         .source("Rigid body that rolls without slipping; contact that rolls does no work")
-        .scene("robot", &FOOT)
+        .scene("robot", &RIGID_FOOT)
         .note(
             "A foot of 14 × 14 mm rounded by 7 mm on an incline of 10° for 0.5 s; one of 14 × 7 mm rounded by 2 mm that falls \
             from 45° to 11°; one of 14 × 12 mm rounded by 3 mm. Contact springs give by a thousandth of a thickness, which \

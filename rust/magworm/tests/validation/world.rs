@@ -27,6 +27,17 @@ step_s = 1.0
 episode_s = 10.0
 "#;
 
+/// A single rigid foot of `robot` on ground that holds it.
+pub const RIGID_FOOT: [(&str, &str); 7] = [
+    ("drive", ""),
+    ("body.magnets", "1"),
+    ("magnet.length_m", "0.014"),
+    ("ground.static_friction", "10.0"),
+    ("ground.dynamic_friction", "10.0"),
+    ("ground.adhesion_n", "0.0"),
+    ("control.step_s", "1.0"),
+];
+
 /// Both laws of `solver.curvature`, the default first: κ = φ and the paper's κ = 2 tan(φ/2).
 pub const CURVATURES: [(&str, &str); 2] = [("'angle'", "κ = φ"), ("'tangent'", "κ = 2 tan(φ/2)")];
 
