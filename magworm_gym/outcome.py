@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.infos import Flags, Infos, add, reasons
-from magworm_gym.tasks import Verdict
+from magworm_gym.tasks import TaskResult
 
 Floats = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ class Outcome:
         timed_out: Whether the episode ended by the time limit (N,).
         broken: Whether the simulation broke in an episode that was going on (N,).
         status: Codes of the simulator (N,).
-        verdict: What the task made of it.
+        result: What the task made of it.
     """
 
     rewards: Floats
@@ -30,7 +30,7 @@ class Outcome:
     timed_out: Flags
     broken: Flags
     status: NDArray[np.uint8]
-    verdict: Verdict
+    result: TaskResult
 
     @property
     def truncated(self) -> Flags:
@@ -43,32 +43,32 @@ class Outcome:
         return self.terminated | self.truncated
 
 
-def judged(verdict: Verdict, status: NDArray[np.uint8], stepping: Flags, at_limit: Flags) -> Outcome:
-    """Brings the task's verdict together with what the simulator and the clock say.
+def outcome_of(result: TaskResult, status: NDArray[np.uint8], stepping: Flags, at_limit: Flags) -> Outcome:
+    """Brings the task's result together with what the simulator and the clock say.
 
     Args:
-        verdict: The task's.
+        result: The task's.
         status: Codes of the simulator (N,).
         stepping: Environments in whose episode the step was (N,).
         at_limit: Episodes as long as they may be (N,).
     """
     broken = stepping & (status != 0)
     sound = stepping & ~broken
-    terminated = sound & verdict.terminated
+    terminated = sound & result.terminated
     timed_out = sound & ~terminated & at_limit
-    rewards = np.where(sound, verdict.rewards, 0.0)
-    return Outcome(rewards, terminated, timed_out, broken, status, verdict)
+    rewards = np.where(sound, result.rewards, 0.0)
+    return Outcome(rewards, terminated, timed_out, broken, status, result)
 
 
 def step_infos(outcome: Outcome, seen: Mapping[str, Floats], mask: Flags) -> Infos:
     """Infos of the environments of mask (N,): what was seen, what the task adds, how episodes ended."""
     infos: Infos = {}
-    for key, values in (*seen.items(), *outcome.verdict.infos.items()):
+    for key, values in (*seen.items(), *outcome.result.infos.items()):
         add(infos, key, values, mask)
     ended = mask & outcome.ended
     add(infos, "time_limit", outcome.timed_out, ended)
-    if outcome.verdict.success is not None:
-        add(infos, "is_success", outcome.verdict.success & ~outcome.broken, ended)
+    if outcome.result.success is not None:
+        add(infos, "is_success", outcome.result.success & ~outcome.broken, ended)
     if outcome.broken.any():
         add(infos, "broken", reasons(outcome.status), mask & outcome.broken)
     return infos

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from magworm_gym._magworm import Batch, Trajectories
 from magworm_gym.arguments import numbers, shown
 from magworm_gym.episodes import Episodes
-from magworm_gym.outcome import judged
+from magworm_gym.outcome import outcome_of
 from magworm_gym.tasks import Task
 
 Floats = NDArray[np.float64]
@@ -96,7 +96,7 @@ class Origin:
 
 @dataclass(frozen=True)
 class Instant:
-    """What a task is judged by, after one control step of a rollout."""
+    """What a task sees after one control step of a rollout."""
 
     robots: Floats
     magnets: Floats | None
@@ -113,7 +113,7 @@ class Instant:
 
     def magnet_poses(self) -> Floats:
         """As :meth:`Batch.magnet_poses`."""
-        assert self.magnets is not None, "a task that judges magnets declares it"
+        assert self.magnets is not None, "a task that looks at single magnets says so: uses_magnet_poses"
         return self.magnets
 
     def magnets_present(self) -> Flags:
@@ -139,15 +139,15 @@ def roll_out(
     environments = origin.environments(start, shape[1])
     batch = origin.batch.copies(environments.tolist())
     task = origin.task.copies(environments)
-    seen = batch.rollout(values, observations=observations, magnet_poses=task.judges_magnets)
+    seen = batch.rollout(values, observations=observations, magnet_poses=task.uses_magnet_poses)
     going = ~origin.episodes.ended[environments]
     left = max_episode_steps - origin.episodes.elapsed_steps[environments]
     rewards = np.zeros(shape[:2])
     terminated, truncated = np.zeros((2, *shape[:2]), np.bool_)
     appended = []
     for t, instant in enumerate(_instants(seen, batch.magnets_present())):
-        verdict = task.judge(instant, seen.progress_m[t], going)
-        outcome = judged(verdict, seen.status[t], going, t + 1 >= left)
+        result = task.evaluate(instant, seen.progress_m[t], going)
+        outcome = outcome_of(result, seen.status[t], going, t + 1 >= left)
         rewards[t], terminated[t], truncated[t] = outcome.rewards, outcome.terminated, outcome.truncated
         if observations and task.parts:
             appended.append(task.observe(instant).astype(np.float32))

@@ -18,7 +18,7 @@ from magworm_gym.drawing import Drawing, Frame
 from magworm_gym.draws import next_episodes, uniform
 from magworm_gym.episodes import Episodes
 from magworm_gym.infos import Flags, Infos, add, rows
-from magworm_gym.outcome import judged, step_infos
+from magworm_gym.outcome import outcome_of, step_infos
 from magworm_gym.reset_options import equipped, read_options, start_limits
 from magworm_gym.rollout import Origin, Rollout, roll_out
 from magworm_gym.scene import AnyScenes, load_scenes
@@ -340,9 +340,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         stepping = ~resetting
         of = self._episodes
         of.elapsed_steps += stepping
-        verdict = self._task.judge(self._batch, progress_m, stepping)
+        result = self._task.evaluate(self._batch, progress_m, stepping)
         observations = self._observe(simulated)
-        outcome = judged(verdict, status, stepping, of.elapsed_steps >= self._max_episode_steps)
+        outcome = outcome_of(result, status, stepping, of.elapsed_steps >= self._max_episode_steps)
         ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
         same_step = self._autoreset is AutoresetMode.SAME_STEP
         starting = ended if same_step else resetting

@@ -59,10 +59,10 @@ def test_the_heading_counts_whole_turns() -> None:
     task = begun(Turn, 170.0, seen(heading_deg=100.0))
     assert task.goal(0).heading_rad == pytest.approx(np.deg2rad(270.0))
     rewards = [
-        task.judge(seen(heading_deg=h), NOTHING, EVERYONE).rewards[0] for h in (150.0, 200.0, 260.0, 275.0)
+        task.evaluate(seen(heading_deg=h), NOTHING, EVERYONE).rewards[0] for h in (150.0, 200.0, 260.0, 275.0)
     ]
     assert rewards == pytest.approx([50.0, 50.0, 60.0, 5.0])
-    near = task.judge(seen(heading_deg=272.0), NOTHING, EVERYONE)
+    near = task.evaluate(seen(heading_deg=272.0), NOTHING, EVERYONE)
     assert near.rewards[0] == pytest.approx(3.1)
     assert near.success is not None and near.success[0]
     assert near.infos["heading_error_rad"][0] == pytest.approx(np.deg2rad(-2.0))
@@ -74,13 +74,13 @@ def test_the_heading_counts_whole_turns() -> None:
 )
 def test_tipping_over_ends_a_turn(roll_deg: float, tips: bool) -> None:
     task = begun(Turn, 1.0, seen())
-    verdict = task.judge(seen(roll_deg=roll_deg), NOTHING, EVERYONE)
-    assert verdict.terminated[0] == tips
-    assert verdict.success is not None and verdict.success[0] != tips
-    assert verdict.rewards[0] == pytest.approx(0.1 - 30.0 * tips)
-    assert abs(np.rad2deg(verdict.infos["roll_rad"][0])) == pytest.approx(abs(roll_deg))
+    result = task.evaluate(seen(roll_deg=roll_deg), NOTHING, EVERYONE)
+    assert result.terminated[0] == tips
+    assert result.success is not None and result.success[0] != tips
+    assert result.rewards[0] == pytest.approx(0.1 - 30.0 * tips)
+    assert abs(np.rad2deg(result.infos["roll_rad"][0])) == pytest.approx(abs(roll_deg))
     if 0.0 < abs(roll_deg) < 180.0:
-        assert np.sign(verdict.infos["roll_rad"][0]) == np.sign(roll_deg)
+        assert np.sign(result.infos["roll_rad"][0]) == np.sign(roll_deg)
 
 
 def test_a_goal_is_reached_within_five_millimetres() -> None:
@@ -88,9 +88,9 @@ def test_a_goal_is_reached_within_five_millimetres() -> None:
     task = begun(Reach, [-0.03, 0.0], seen(x_m=0.1, heading_deg=90.0))
     assert task.goal(0).point_m == pytest.approx((0.1, 0.03))
     assert task.observe(seen(x_m=0.1, heading_deg=90.0))[0] == pytest.approx([-1.5, 0.0, 1.5])
-    far = task.judge(seen(x_m=0.1, z_m=0.024), NOTHING, EVERYONE)
+    far = task.evaluate(seen(x_m=0.1, z_m=0.024), NOTHING, EVERYONE)
     assert (far.rewards[0], far.terminated[0]) == (pytest.approx(24.0), False)
-    there = task.judge(seen(x_m=0.104, z_m=0.03), NOTHING, EVERYONE)
+    there = task.evaluate(seen(x_m=0.104, z_m=0.03), NOTHING, EVERYONE)
     assert (there.rewards[0], there.terminated[0]) == (pytest.approx(2.0), True)
     assert there.infos["distance_m"][0] == pytest.approx(0.004)
 

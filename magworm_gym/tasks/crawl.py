@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from magworm_gym.tasks.task import MM_PER_M, Flags, Floats, Seen, Task, Verdict
+from magworm_gym.tasks.task import MM_PER_M, Flags, Floats, Simulation, Task, TaskResult
 
 
 class Crawl(Task):
@@ -14,6 +14,6 @@ class Crawl(Task):
     name = "crawl"
     default_scene = "paper-3"
 
-    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
+    def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
         """See the class."""
-        return Verdict(MM_PER_M * progress_m, np.zeros(len(mask), np.bool_))
+        return TaskResult(MM_PER_M * progress_m, np.zeros(len(mask), np.bool_))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene, Specification, sin_cos
+from magworm_gym._magworm import Scene, Specification, sin_cos
 from magworm_gym.spaces import Part
 from magworm_gym.tasks.task import (
     MM_PER_M,
@@ -15,9 +15,9 @@ from magworm_gym.tasks.task import (
     Floats,
     Goal,
     GoalOption,
-    Seen,
+    Simulation,
     Task,
-    Verdict,
+    TaskResult,
     metres,
     named,
 )
@@ -56,30 +56,30 @@ class Reach(Task):
         )
         self.state = {"goal_m": np.zeros((num_envs, 2)), "distance_m": np.zeros(num_envs)}
 
-    def begin(self, batch: Batch, mask: Flags, asked: Floats, drawn: Floats) -> None:
+    def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:
         """See the class."""
-        distance = NEAREST_M + (FURTHEST_M - NEAREST_M) * drawn[:, 0]
-        aside = np.deg2rad(WIDEST_DEG) * (2.0 * drawn[:, 1] - 1.0)
+        distance = NEAREST_M + (FURTHEST_M - NEAREST_M) * uniform[:, 0]
+        aside = np.deg2rad(WIDEST_DEG) * (2.0 * uniform[:, 1] - 1.0)
         sine, cosine = sin_cos(aside)
         drawn_m = distance[:, None] * np.stack([-cosine, sine], axis=1)
-        x, z = np.where(np.isnan(asked), drawn_m, asked).T.copy()
-        poses = batch.robot_poses()
+        x, z = np.where(np.isnan(requested_goal), drawn_m, requested_goal).T.copy()
+        poses = simulation.robot_poses()
         sin, cos = sin_cos(poses[:, 2])
         goal_m = poses[:, :2] + np.stack([x * cos + z * sin, z * cos - x * sin], axis=1)
         self.state["goal_m"] = np.where(mask[:, None], goal_m, self.state["goal_m"])
         self.state["distance_m"] = np.where(mask, self._distance_m(poses), self.state["distance_m"])
 
-    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
+    def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
         """See the class."""
         before = self.state["distance_m"]
-        distance = np.where(mask, self._distance_m(batch.robot_poses()), before)
+        distance = np.where(mask, self._distance_m(simulation.robot_poses()), before)
         self.state["distance_m"] = distance
         reached = distance <= TOLERANCE_M
-        return Verdict(MM_PER_M * (before - distance), reached, reached, {"distance_m": distance})
+        return TaskResult(MM_PER_M * (before - distance), reached, reached, {"distance_m": distance})
 
-    def observe(self, batch: Seen) -> Floats:
+    def observe(self, simulation: Simulation) -> Floats:
         """See the class."""
-        poses = batch.robot_poses()
+        poses = simulation.robot_poses()
         x, z = (self.state["goal_m"] - poses[:, :2]).T.copy()
         sin, cos = sin_cos(poses[:, 2])
         seen = np.stack([x * cos - z * sin, x * sin + z * cos, np.sqrt(x * x + z * z)], axis=1)

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene, Specification
+from magworm_gym._magworm import Scene, Specification
 from magworm_gym.spaces import Part
 
 Floats = NDArray[np.float64]
@@ -52,7 +52,7 @@ class Goal:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class TaskResult:
     """What a task makes of one control step of N environments.
 
     Attributes:
@@ -68,8 +68,8 @@ class Verdict:
     infos: dict[str, NDArray[Any]] = field(default_factory=dict)
 
 
-class Seen(Protocol):
-    """What a task is judged by: a batch, or an instant of a rollout of one."""
+class Simulation(Protocol):
+    """What a task sees of its environments: a batch, or an instant of a rollout of one."""
 
     @property
     def num_envs(self) -> int:
@@ -108,7 +108,7 @@ class Task(ABC):
     goal_option: ClassVar[GoalOption | None] = None
     draws: ClassVar[int] = 0
     """How many random numbers a goal takes."""
-    judges_magnets: ClassVar[bool] = False
+    uses_magnet_poses: ClassVar[bool] = False
     """Whether it looks at the poses of single magnets."""
 
     parts: tuple[Part, ...] = ()
@@ -123,29 +123,29 @@ class Task(ABC):
             )
         self.state = {}
 
-    def begin(self, batch: Batch, mask: Flags, asked: Floats, drawn: Floats) -> None:  # noqa: B027
+    def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:  # noqa: B027
         """Sets goals where episodes start, after the simulator has reset them.
 
         Args:
-            batch: The environments.
+            simulation: The environments.
             mask: Those that start (N,).
-            asked: Goals given as option (N, goal), NaN for those to draw.
-            drawn: Random numbers (N, draws), uniform in [0, 1).
+            requested_goal: Goals given as option (N, goal), NaN for those to draw.
+            uniform: Random numbers (N, draws), uniform in [0, 1).
         """
 
     @abstractmethod
-    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
-        """Judges the control step just done.
+    def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
+        """Rewards and ends of the control step just done.
 
         Args:
-            batch: The environments.
+            simulation: The environments.
             progress_m: Progress towards the head in the step (N,) [m].
-            mask: The environments that stepped (N,): the others keep their state, their verdict is not used.
+            mask: The environments that stepped (N,): the others keep their state, their result is not used.
         """
 
-    def observe(self, batch: Seen) -> Floats:
+    def observe(self, simulation: Simulation) -> Floats:
         """What the task appends to the observations (N, size of :attr:`parts`)."""
-        return np.zeros((batch.num_envs, 0))
+        return np.zeros((simulation.num_envs, 0))
 
     def reset_infos(self) -> dict[str, NDArray[Any]]:
         """Arrays (N, …) that the infos of a reset get, by key."""

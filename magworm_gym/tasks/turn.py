@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene, Specification, atan2, sin_cos
+from magworm_gym._magworm import Scene, Specification, atan2, sin_cos
 from magworm_gym.spaces import Part
-from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Seen, Task, Verdict
+from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Simulation, Task, TaskResult
 
 GREATEST_GOAL_DEG = 90.0
 """Goals are drawn up to this angle to either side of the heading at the start."""
@@ -40,7 +40,7 @@ class Turn(Task):
     name = "turn"
     goal_option = GoalOption("goal_deg", (), 180.0)
     draws = 1
-    judges_magnets = True
+    uses_magnet_poses = True
     parts = (
         Part("goal_direction", "1", 2, -1.0, 1.0, "cosine and sine of the goal's heading from the robot's"),
         Part("heading_error", "π rad", 1, -np.inf, np.inf, "goal − heading, whole turns counted"),
@@ -55,31 +55,32 @@ class Turn(Task):
         """Goal − heading (N,) [rad]."""
         return self.state["goal_rad"] - self.state["heading_rad"]
 
-    def begin(self, batch: Batch, mask: Flags, asked: Floats, drawn: Floats) -> None:
+    def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:
         """See the class."""
-        heading = batch.robot_poses()[:, 2]
-        turn_deg = np.where(np.isnan(asked), GREATEST_GOAL_DEG * (2.0 * drawn - 1.0), asked)[:, 0]
+        heading = simulation.robot_poses()[:, 2]
+        drawn_deg = GREATEST_GOAL_DEG * (2.0 * uniform - 1.0)
+        turn_deg = np.where(np.isnan(requested_goal), drawn_deg, requested_goal)[:, 0]
         self.state["heading_rad"] = np.where(mask, heading, self.state["heading_rad"])
         self.state["goal_rad"] = np.where(mask, heading + np.deg2rad(turn_deg), self.state["goal_rad"])
 
-    def judge(self, batch: Seen, progress_m: Floats, mask: Flags) -> Verdict:
+    def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
         """See the class."""
         before = np.abs(np.rad2deg(self.error_rad))
-        change = batch.robot_poses()[:, 2] - self.state["heading_rad"]
+        change = simulation.robot_poses()[:, 2] - self.state["heading_rad"]
         heading = self.state["heading_rad"] + np.where(mask, _within_half_turn(change), 0.0)
         self.state["heading_rad"] = heading
         left = np.abs(np.rad2deg(self.error_rad))
         near = left < TOLERANCE_DEG
-        roll, upside_down = _furthest_roll(batch)
+        roll, upside_down = _furthest_roll(simulation)
         tipped = (np.abs(roll) > np.deg2rad(TIPPED_ROLL_DEG)) | upside_down
-        return Verdict(
+        return TaskResult(
             rewards=before - left + NEAR_REWARD * near + TIPPED_REWARD * tipped,
             terminated=tipped,
             success=near & ~tipped,
             infos={"heading_rad": heading, "heading_error_rad": self.error_rad, "roll_rad": roll},
         )
 
-    def observe(self, batch: Seen) -> Floats:
+    def observe(self, simulation: Simulation) -> Floats:
         """See the class."""
         error = self.error_rad
         sine, cosine = sin_cos(error)
@@ -99,14 +100,14 @@ def _within_half_turn(angle_rad: Floats) -> Floats:
     return angle_rad - 2.0 * np.pi * np.round(angle_rad / (2.0 * np.pi))
 
 
-def _furthest_roll(batch: Seen) -> tuple[Floats, Flags]:
+def _furthest_roll(simulation: Simulation) -> tuple[Floats, Flags]:
     """The greatest roll of the magnets in place (N,) [rad], and whether one of them is upside down (N,).
 
     Roll is about the magnet's own tangent, positive where its up leans towards its side.
     """
-    w, x, y, z = np.moveaxis(batch.magnet_poses()[..., 3:], -1, 0).copy()
+    w, x, y, z = np.moveaxis(simulation.magnet_poses()[..., 3:], -1, 0).copy()
     up_y, side_y = 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
-    present = batch.magnets_present()
+    present = simulation.magnets_present()
     roll = np.where(present, atan2(-side_y, up_y), 0.0)
     furthest = np.abs(roll).argmax(axis=1)[:, None]
     return np.take_along_axis(roll, furthest, axis=1)[:, 0], (present & (up_y < 0.0)).any(axis=1)
