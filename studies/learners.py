@@ -5,7 +5,6 @@ project does not need otherwise. Writes a Markdown page with what it measured.
 """
 
 import argparse
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -18,12 +17,9 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.utils import set_random_seed
 from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "training"))
-
-from goal_trials import FIRST_SEED, fly
-from training_settings import SCENES
-
 from magworm_gym import load_scene
+from magworm_gym.learning.compare.goal_trials import FIRST_SEED, fly
+from magworm_gym.learning.settings import SCENES
 from magworm_gym.sb3 import MagWormVecEnv
 
 TASK, SCENE = "turn", SCENES / "turn-3-pair.toml"

@@ -16,17 +16,16 @@ pytest.importorskip("stable_baselines3")
 pytest.importorskip("matplotlib")
 
 TRAINING = Path(__file__).parent.parent / "training"
-sys.path.insert(0, str(TRAINING))
 
-import evaluate  # noqa: E402
-import train  # noqa: E402
-from checkpoints import complete_checkpoints  # noqa: E402
-from command_line import UsageError  # noqa: E402
-from damage import factors_for_each, removable_sets, removed_for_each, robot_name  # noqa: E402
-from intervals import Interval, interquartile_mean, interval  # noqa: E402
-from report import Result, verdict  # noqa: E402
-from stages import Stages  # noqa: E402
-from training_settings import read_saved_settings, settings_from  # noqa: E402
+from magworm_gym.learning import train  # noqa: E402
+from magworm_gym.learning.checkpoints import complete_checkpoints  # noqa: E402
+from magworm_gym.learning.command_line import UsageError  # noqa: E402
+from magworm_gym.learning.compare import evaluate  # noqa: E402
+from magworm_gym.learning.compare.intervals import Interval, interquartile_mean, interval  # noqa: E402
+from magworm_gym.learning.compare.report import Result, verdict  # noqa: E402
+from magworm_gym.learning.compare.stages import Stages  # noqa: E402
+from magworm_gym.learning.damage import factors_for_each, removable_sets, removed_for_each, robot_name  # noqa: E402
+from magworm_gym.learning.settings import read_saved_settings, settings_from  # noqa: E402
 
 SMALL_TRAINING = """
 [run]
@@ -132,7 +131,7 @@ def test_killed_training_goes_on_from_its_last_checkpoint(config: Path, tmp_path
 def test_interrupted_training_ends_as_an_uninterrupted_one(
     config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import crawl_training
+    from magworm_gym.learning import training as crawl_training
 
     flags = ["crawl", "--config", str(config), "--out"]
     train.main([*flags, str(tmp_path / "whole")])

@@ -1,7 +1,6 @@
 """Training and comparison of turning and reaching: pilots, searches, reports, command lines."""
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,20 +9,19 @@ import pytest
 pytest.importorskip("stable_baselines3")
 pytest.importorskip("matplotlib")
 
-TRAINING = Path(__file__).parent.parent / "training"
-sys.path.insert(0, str(TRAINING))
 
-import demonstration  # noqa: E402
-import evaluate_goals  # noqa: E402
-import train  # noqa: E402
-from command_line import UsageError  # noqa: E402
-from goal_report import table, verdict  # noqa: E402
-from goal_search import SearchSize, score_of, searched  # noqa: E402
-from goal_trials import Flight, fly  # noqa: E402
-from pilots import FAMILIES, PARK, Cycle, Learned, Steered  # noqa: E402
-from training_settings import CONFIGS, SCENES, read_settings  # noqa: E402
-
-from magworm_gym import MagWormVectorEnv, Scene, load_scene  # noqa: E402
+from magworm_gym import MagWormVectorEnv, Scene, load_scene
+from magworm_gym.learning import (
+    demonstration,
+    train,
+)
+from magworm_gym.learning.command_line import UsageError
+from magworm_gym.learning.compare import evaluate_goals
+from magworm_gym.learning.compare.goal_report import table, verdict
+from magworm_gym.learning.compare.goal_search import SearchSize, score_of, searched
+from magworm_gym.learning.compare.goal_trials import Flight, fly
+from magworm_gym.learning.compare.pilots import FAMILIES, PARK, Cycle, Learned, Steered
+from magworm_gym.learning.settings import CONFIGS, SCENES, read_settings
 
 TINY = """
 [training]

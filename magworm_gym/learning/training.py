@@ -6,8 +6,16 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from atomic_files import new_folder, write_json
-from checkpoints import (
+from stable_baselines3 import PPO, SAC
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.logger import configure
+from stable_baselines3.common.utils import LinearSchedule, set_random_seed
+from stable_baselines3.common.vec_env import VecEnv, VecNormalize
+
+from magworm_gym import Scene
+from magworm_gym.atomic_files import new_folder, write_json
+from magworm_gym.learning.callbacks import Bar, Checkpoints, LearningCurve
+from magworm_gym.learning.checkpoints import (
     MODEL,
     NORMALISATION,
     Trainee,
@@ -16,17 +24,9 @@ from checkpoints import (
     save_checkpoint,
     save_normalisation,
 )
-from command_line import UsageError
-from learning_callbacks import Bar, Checkpoints, LearningCurve
-from robots_in_batch import VariedRobots
-from stable_baselines3 import PPO, SAC
-from stable_baselines3.common.base_class import BaseAlgorithm
-from stable_baselines3.common.logger import configure
-from stable_baselines3.common.utils import LinearSchedule, set_random_seed
-from stable_baselines3.common.vec_env import VecEnv, VecNormalize
-from training_settings import UNITS, TrainingSettings
-
-from magworm_gym import Scene
+from magworm_gym.learning.command_line import UsageError
+from magworm_gym.learning.robots_in_batch import VariedRobots
+from magworm_gym.learning.settings import UNITS, TrainingSettings
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 ALGORITHM_CLASSES: dict[str, type[BaseAlgorithm]] = {"ppo": PPO, "sac": SAC}
@@ -74,7 +74,7 @@ def train_seed(
     if checkpoints:
         trainee = restore_checkpoint(checkpoints[-1], trainee)
     elif "teacher" in settings.policy:
-        from demonstration import teach
+        from magworm_gym.learning.demonstration import teach
 
         taught_steps = teach(settings, scene, trainee, robots, seed)
         write_json(folder / TAUGHT, {"steps": taught_steps})

@@ -5,11 +5,11 @@ from typing import Any
 
 import cmaes
 import numpy as np
-from goal_trials import Flight, fly
 from numpy.typing import NDArray
-from pilots import Family, Steered
 
 from magworm_gym import Scene
+from magworm_gym.learning.compare.goal_trials import Flight, fly
+from magworm_gym.learning.compare.pilots import Family, Steered
 
 Floats = NDArray[np.float64]
 

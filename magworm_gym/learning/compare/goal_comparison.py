@@ -5,18 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import goal_search
 import numpy as np
-from goal_trials import FIRST_SEED, TURN_TOLERANCE_DEG, Flight, filmed, fly
 from numpy.typing import NDArray
-from pilots import FAMILIES, Learned, Pilot, Steered
-from stages import Stages
 
 from magworm_gym import Recording, Scene
+from magworm_gym.learning.compare import goal_search
+from magworm_gym.learning.compare.goal_trials import FIRST_SEED, TURN_TOLERANCE_DEG, Flight, filmed, fly
+from magworm_gym.learning.compare.pilots import FAMILIES, Learned, Pilot, Steered
+from magworm_gym.learning.compare.stages import Stages
 from magworm_gym.tasks import Goal
 
 if TYPE_CHECKING:
-    from evaluate_goals import GoalBudget
+    from magworm_gym.learning.compare.evaluate_goals import GoalBudget
 
 Floats = NDArray[np.float64]
 Row = dict[str, Any]

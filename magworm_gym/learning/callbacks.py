@@ -5,9 +5,10 @@ import sys
 from collections.abc import Callable
 
 import numpy as np
-from checkpoints import Curve
 from stable_baselines3.common.callbacks import BaseCallback
 from tqdm import tqdm
+
+from magworm_gym.learning.checkpoints import Curve
 
 MM_PER_M = 1000.0
 TENTHS = 10

@@ -7,10 +7,10 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from comparison import Comparison
-from report import Result
 
 from magworm_gym.baselines import PAPER_PITCHES_M, Recording
+from magworm_gym.learning.compare.comparison import Comparison
+from magworm_gym.learning.compare.report import Result
 
 mpl.use("Agg")
 

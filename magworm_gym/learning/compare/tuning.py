@@ -4,8 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from damage import present_after
-from evaluation_settings import SearchBudget, SweepBudget
 
 from magworm_gym import Scene
 from magworm_gym.baselines import (
@@ -16,6 +14,8 @@ from magworm_gym.baselines import (
     sweep_shuttle,
     sweep_tow,
 )
+from magworm_gym.learning.compare.evaluation_settings import SearchBudget, SweepBudget
+from magworm_gym.learning.damage import present_after
 
 
 def swept_speeds_m_s(scene: Scene, count: int) -> list[float]:

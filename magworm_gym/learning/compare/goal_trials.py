@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pilots import Pilot
 
 from magworm_gym import MagWormVectorEnv, Recording, Scene
+from magworm_gym.learning.compare.pilots import Pilot
 from magworm_gym.tasks import Goal
 
 Floats = NDArray[np.float64]

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from crawl_policy import LearnedController
 from numpy.typing import NDArray
 
 from magworm_gym import MagWormVectorEnv, Scene
+from magworm_gym.learning.crawl_policy import LearnedController
 
 Floats = NDArray[np.float64]
 

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 import torch
-from atomic_files import new_folder
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.running_mean_std import RunningMeanStd
 from stable_baselines3.common.vec_env import VecNormalize
 
 from magworm_gym import MagWormVectorEnv
+from magworm_gym.atomic_files import new_folder
 
 KEPT = 2
 MODEL = "model.zip"

@@ -7,10 +7,17 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from goal_comparison import LEARNED, REACH_GOALS_M, TURN_GOALS_DEG, GoalComparison, Row
-from intervals import Interval, interval
-from pilots import FAMILIES
-from training_settings import UNITS
+
+from magworm_gym.learning.compare.goal_comparison import (
+    LEARNED,
+    REACH_GOALS_M,
+    TURN_GOALS_DEG,
+    GoalComparison,
+    Row,
+)
+from magworm_gym.learning.compare.intervals import Interval, interval
+from magworm_gym.learning.compare.pilots import FAMILIES
+from magworm_gym.learning.settings import UNITS
 
 mpl.use("Agg")
 

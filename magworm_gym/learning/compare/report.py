@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
-from comparison import Comparison, Row
-from intervals import Interval, interval
+from magworm_gym.learning.compare.comparison import Comparison, Row
+from magworm_gym.learning.compare.intervals import Interval, interval
 
 MM_PER_M = 1000.0
 # A tow that reaches this share of the best speed is worth a warning.

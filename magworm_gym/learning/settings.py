@@ -7,15 +7,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from command_line import UsageError
+from magworm_gym.learning.command_line import UsageError
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
 
-CONFIGS = Path(__file__).parent / "configs"
-SCENES = Path(__file__).parent / "scenes"
+ROOT = Path(__file__).parents[2] / "training"
+CONFIGS = ROOT / "configs"
+SCENES = ROOT / "scenes"
 ALGORITHMS = ("ppo", "sac")
 TRAINED_TASKS = ("crawl", "turn", "reach")
 UNITS = {"crawl": "mm/s", "turn": "°/s", "reach": "mm/s"}

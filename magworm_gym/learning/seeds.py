@@ -6,9 +6,8 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from training_settings import TrainingSettings
-
 from magworm_gym import Scene
+from magworm_gym.learning.settings import TrainingSettings
 
 
 def default_workers() -> int:
@@ -28,7 +27,7 @@ def train_seeds(settings: TrainingSettings, scene: Scene, out: Path, workers: in
     Returns:
         One summary for each seed, see ``crawl_training.train_seed``.
     """
-    from crawl_training import FINISHED, train_seed
+    from magworm_gym.learning.training import FINISHED, train_seed
 
     folders = [out / f"seed-{seed}" for seed in settings.seeds]
     waiting = sum(not (folder / FINISHED).exists() for folder in folders)
@@ -49,6 +48,6 @@ def train_seeds(settings: TrainingSettings, scene: Scene, out: Path, workers: in
 def _train_in_worker(
     settings: TrainingSettings, scene_toml: str, seed: int, folder: Path, row: int, threads: int
 ) -> dict[str, Any]:
-    from crawl_training import train_seed
+    from magworm_gym.learning.training import train_seed
 
     return train_seed(settings, Scene.from_toml(scene_toml), seed, folder, row=row, threads=threads)

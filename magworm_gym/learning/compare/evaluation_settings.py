@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from command_line import UsageError
-from training_settings import CONFIGS, TrainingSettings, read_settings, read_toml
-
 from magworm_gym.baselines import Trial
+from magworm_gym.learning.command_line import UsageError
+from magworm_gym.learning.settings import CONFIGS, TrainingSettings, read_settings, read_toml
 
 Table = TypeVar("Table")
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from checkpoints import MODEL, NORMALISATION
-from crawl_training import ALGORITHM_CLASSES
 from numpy.typing import NDArray
 
 from magworm_gym import Batch
+from magworm_gym.learning.checkpoints import MODEL, NORMALISATION
+from magworm_gym.learning.training import ALGORITHM_CLASSES
 
 
 class LearnedController:

@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import rivals
-import tuning
-from damage import removable_sets, robot_name
-from evaluation_settings import Budget
-from rivals import Conditions, Rival
-from stages import Stages
 
 from magworm_gym import Scene
 from magworm_gym.baselines import PAPER_PITCHES_M, Recording, Trial
+from magworm_gym.learning.compare import rivals, tuning
+from magworm_gym.learning.compare.evaluation_settings import Budget
+from magworm_gym.learning.compare.rivals import Conditions, Rival
+from magworm_gym.learning.compare.stages import Stages
+from magworm_gym.learning.damage import removable_sets, robot_name
 
 Removed = tuple[int, ...]
 Row = dict[str, Any]

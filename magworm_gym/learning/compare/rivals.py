@@ -6,8 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from crawl_policy import LearnedController
-from damage import present_after
 from numpy.typing import NDArray
 
 from magworm_gym import Batch, Scene
@@ -24,6 +22,8 @@ from magworm_gym.baselines import (
     crawl_speed_m_s,
     record,
 )
+from magworm_gym.learning.crawl_policy import LearnedController
+from magworm_gym.learning.damage import present_after
 
 
 @dataclass(frozen=True)

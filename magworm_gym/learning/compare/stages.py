@@ -8,9 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from atomic_files import write_json
-
 from magworm_gym import _magworm
+from magworm_gym.atomic_files import write_json
 
 
 class Stages:

@@ -3,11 +3,11 @@
 from typing import Any
 
 import numpy as np
-from damage import factors_for_each, removed_for_each
 from numpy.typing import NDArray
-from training_settings import TrainingSettings
 
 from magworm_gym import Scene
+from magworm_gym.learning.damage import factors_for_each, removed_for_each
+from magworm_gym.learning.settings import TrainingSettings
 from magworm_gym.sb3 import MagWormVecEnv
 
 # The stage belongs to the rig, not to the robot.

@@ -4,15 +4,15 @@ from typing import Any
 
 import numpy as np
 import torch
-from checkpoints import Trainee, statistics
-from command_line import UsageError
-from goal_search import SearchSize, searched
 from numpy.typing import NDArray
-from pilots import FAMILIES, Steered
 from stable_baselines3 import PPO
-from training_settings import TrainingSettings
 
 from magworm_gym import Scene
+from magworm_gym.learning.checkpoints import Trainee, statistics
+from magworm_gym.learning.command_line import UsageError
+from magworm_gym.learning.compare.goal_search import SearchSize, searched
+from magworm_gym.learning.compare.pilots import FAMILIES, Steered
+from magworm_gym.learning.settings import TrainingSettings
 from magworm_gym.sb3 import MagWormVecEnv
 
 SEARCH = SearchSize(seeds=1, scouts=128, population=16, generations=10, starts=2, duration_s=5.0)

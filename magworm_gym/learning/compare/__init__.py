@@ -1,0 +1,1 @@
+"""Trained policies beside belts, strokes and other rivals."""
