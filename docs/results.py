@@ -43,7 +43,9 @@ def main() -> int:
         report = flags.file.read_text(encoding="utf-8")
         (RESULTS / f"{flags.take}.md").write_text(kept(report), encoding="utf-8")
         return 0
-    reports = {name: (RESULTS / f"{name}.md").read_text(encoding="utf-8") for name in COMPARISONS}
+    text = flags.file.read_text(encoding="utf-8")
+    named = [name for name in COMPARISONS if f"<!-- {name} -->" in text]
+    reports = {name: (RESULTS / f"{name}.md").read_text(encoding="utf-8") for name in named}
     return write_or_check(
         flags.file, {name: block(report) for name, report in reports.items()}, check=flags.check
     )

@@ -2,8 +2,8 @@
 
 They stand between the lines ``<!-- spaces -->`` and ``<!-- /spaces -->``::
 
-    python docs/spaces.py README.md           # writes them
-    python docs/spaces.py --check README.md   # fails where they are out of date
+    python docs/spaces.py docs/environments.md           # writes them
+    python docs/spaces.py --check docs/environments.md   # fails where they are out of date
 """
 
 import argparse
