@@ -39,8 +39,9 @@ turn: install-train  ## train turning, compare it with belts and two magnets, a 
 reach: install-train  ## the same for crawling to a point
 	$(VENV_PYTHON) training/evaluate_goals.py reach --budget $(BUDGET) --out $(REACH_OUT)
 
-validate: install-train need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
-	$(VENV_PYTHON) studies/validation/validate.py
+validate: install-test need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
+	$(VENV_PYTHON) -m studies measure validation
+	$(VENV_PYTHON) -m studies render validation
 
 paper: install-test  ## simulate the paper's experiments again: docs/paper.md beside its figures
 	$(VENV_PYTHON) -m studies.paper

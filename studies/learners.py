@@ -128,7 +128,7 @@ def measured(name: str, kind: type[BaseAlgorithm], seed: int, seconds: float) ->
     environments.seed(seed * SEED_STRIDE)
     if name == "PPO":
         environments = VecNormalize(environments, gamma=GAMMA)
-    model = kind("MlpPolicy", environments, gamma=GAMMA, device="cpu", **options)
+    model = kind("MlpPolicy", environments, gamma=GAMMA, device="cpu", **options)  # type: ignore[call-arg]
     scene = load_scene(SCENE)
     clock = Clock(seconds, scene.control_step_s)
     model.learn(2**31, callback=clock)

@@ -37,8 +37,8 @@ def table(problem: Problem, scene: str) -> list[str]:
     rows = [f"{scene}: fitted targets met {met[0]}, held out {met[1]}, loss {loss:.4g}", ""]
     rows += ["| target | fitted | wanted | model | met |", "|---|---|---|---|---|"]
     for each in sorted(outcomes, key=lambda outcome: (outcome.met, not outcome.fitted)):
-        fitted, met = "yes" if each.fitted else "no", "yes" if each.met else "**no**"
-        rows.append(f"| {each.name} | {fitted} | {each.target} | {each.model:.4g} | {met} |")
+        fitted, reached = "yes" if each.fitted else "no", "yes" if each.met else "**no**"
+        rows.append(f"| {each.name} | {fitted} | {each.target} | {each.model:.4g} | {reached} |")
     return [*rows, ""]
 
 

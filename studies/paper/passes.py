@@ -10,12 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.paper.scenes import AHEAD_M, SEPARATION_M, on_belt
-
-Floats = NDArray[np.float64]
+from studies.kit.passes import AHEAD_M, CARRIED_M, SEPARATION_M, Floats, on_belt, unbroken
 
 PASSES = 3
 AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007)
@@ -23,8 +20,6 @@ AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007)
 FRICTIONS = (0.98, 1.0, 1.02)
 """Ours: factors of the static coefficient of friction."""
 SAMPLE_S = 0.01
-CARRIED_M = 0.020
-"""Ours: a robot that moves further than one magnet pitch with the drive in a pass was carried along."""
 
 
 @dataclass(frozen=True)
@@ -117,9 +112,7 @@ def strides_of(record: Recording, ends_s: Floats, backward: bool) -> Floats:
     Raises:
         RuntimeError: The simulation broke down; the sentence says why.
     """
-    if record.broken is not None:
-        raise RuntimeError(f"a simulation broke down: {record.broken}")
-    step_s = record.time_s[1] - record.time_s[0]
+    step_s = unbroken(record).time_s[1] - record.time_s[0]
     samples = np.minimum(np.round(ends_s / step_s).astype(int), len(record.time_s) - 1)
     way = record.progress_m[np.concatenate([[0], samples])]
     return np.asarray(np.diff(-way if backward else way))

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.paper.passes import CARRIED_M
-from studies.paper.scenes import AHEAD_M
+from studies.kit.passes import AHEAD_M, CARRIED_M
 
 Floats = NDArray[np.float64]
 

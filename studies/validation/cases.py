@@ -1,21 +1,15 @@
 """What the Rust tests left: one TOML file for each case, see ``rust/magworm/tests/validation/report.rs``."""
 
-from __future__ import annotations
-
 import math
-import sys
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+import msgspec
+
+HERE = Path(__file__).parent
+DATA = HERE / "data"
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(msgspec.Struct, frozen=True, kw_only=True):
     """A measured value, or quantiles of many errors, and the band of it."""
 
     quantity: str
@@ -32,8 +26,7 @@ class Row:
     @property
     def bounded(self) -> bool:
         """Whether it has a band."""
-        has_error = self.error is not None
-        return not math.isinf(self.high) or (not has_error and not math.isinf(self.low))
+        return not math.isinf(self.high) or (self.error is None and not math.isinf(self.low))
 
     @property
     def is_order(self) -> bool:
@@ -52,8 +45,35 @@ class Row:
         return off / half if half else 0.0 if off == 0.0 else math.inf
 
 
-@dataclass(frozen=True)
-class Case:
+class Table(msgspec.Struct, frozen=True):
+    """A table of a case, its numbers already written."""
+
+    caption: str
+    head: list[str]
+    rows: list[list[str]]
+
+
+class Curve(msgspec.Struct, frozen=True):
+    """Points of the simulator, or of what it is compared with."""
+
+    label: str
+    exact: bool
+    x: list[float]
+    y: list[float]
+
+
+class Figure(msgspec.Struct, frozen=True, kw_only=True):
+    """A figure of a case; ``axes`` is ``log-log``, ``equal`` or ``linear``, ``slope`` the expected one."""
+
+    title: str
+    x: str
+    y: str
+    axes: str
+    curves: list[Curve]
+    slope: float | None = None
+
+
+class Case(msgspec.Struct, frozen=True):
     """One case of validation."""
 
     name: str
@@ -65,8 +85,13 @@ class Case:
     edits: list[str]
     note: str
     rows: list[Row]
-    tables: list[dict[str, Any]]
-    figures: list[dict[str, Any]]
+    tables: list[Table]
+    figures: list[Figure]
+
+    @property
+    def is_rod(self) -> bool:
+        """Whether its scene is the rod that the page shows once, not a preset."""
+        return "\n" in self.base
 
     @property
     def failures(self) -> list[str]:
@@ -85,15 +110,26 @@ class Case:
         """Observed orders of convergence."""
         return [row.measured[0] for row in self.rows if row.is_order]
 
-
-def read_case(path: Path) -> Case:
-    """Reads the file of a case."""
-    values = tomllib.loads(path.read_text(encoding="utf-8"))
-    rows = [Row(**row) for row in values.pop("rows")]
-    return Case(rows=rows, **values)
+    def image(self, index: int) -> str:
+        """File of one of its figures below ``docs/images/``."""
+        return f"validation/{self.name.replace('_', '-')}-{index + 1}.png"
 
 
-def read_cases(folder: Path) -> dict[str, Case]:
-    """Reads all cases of a folder, by name."""
-    cases = [read_case(path) for path in sorted(folder.glob("*.toml"))]
-    return {case.name: case for case in cases}
+class Section(msgspec.Struct, frozen=True):
+    """A section of the page: its cases, and what each is compared with."""
+
+    title: str
+    text: str
+    cases: dict[str, str]
+
+
+def read_sections() -> list[Section]:
+    """The order of the page."""
+    text = (HERE / "contents.toml").read_text(encoding="utf-8")
+    return msgspec.toml.decode(text, type=dict[str, list[Section]])["sections"]
+
+
+def read_cases(folder: Path = DATA) -> dict[str, Case]:
+    """All cases of a folder, by name."""
+    found = [msgspec.toml.decode(path.read_bytes(), type=Case) for path in sorted(folder.glob("*.toml"))]
+    return {case.name: case for case in found}

@@ -1,0 +1,13 @@
+"""``python -m studies measure NAME``, ``python -m studies render [NAME ...]``: see :mod:`studies.kit`."""
+
+import sys
+
+from studies.kit.study import main
+
+MODULES = {
+    "validation": "studies.validation.study",
+}
+"""Every study, and the module that holds it."""
+
+if __name__ == "__main__":
+    sys.exit(main(MODULES))
