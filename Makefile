@@ -102,10 +102,9 @@ format: need-rust-checks install-test  ## format Rust and Python, mend what ruff
 	$(VENV_PYTHON) -m ruff check --fix .
 	$(VENV_PYTHON) -m ruff format .
 
-docs: install-test  ## write the tables of README.md and docs/ that come from the simulator and from docs/results/
+docs: install-test  ## write tables and numbers of README.md and docs/ that come from the simulator and from docs/results/
 	$(VENV_PYTHON) docs/spaces.py docs/environments.md
-	$(VENV_PYTHON) docs/results.py README.md
-	$(VENV_PYTHON) docs/results.py docs/training.md
+	$(VENV_PYTHON) docs/results.py
 
 clean:  ## remove everything that was built or installed; results in runs/ stay
 	rm -rf $(VENV) target dist .pytest_cache .mypy_cache .ruff_cache magworm_gym/_magworm*.so
@@ -141,11 +140,10 @@ test-nightly: need-cargo  ## 100,000 random extreme scenes and rubbers, ten mill
 	PROPTEST_CASES=100000 cargo test --test validation relaxing_stability
 	cargo test --test long_runs -- --ignored
 
-test-docs: need-cargo install-test  ## cargo doc, tables of README.md and docs/
+test-docs: need-cargo install-test  ## cargo doc, tables and numbers of README.md and docs/
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm
 	$(VENV_PYTHON) docs/spaces.py --check docs/environments.md
-	$(VENV_PYTHON) docs/results.py --check README.md
-	$(VENV_PYTHON) docs/results.py --check docs/training.md
+	$(VENV_PYTHON) docs/results.py --check
 
 test-wheel: wheel  ## the wheel in an empty environment: needs numpy and gymnasium only
 	rm -rf $(WHEEL_VENV)

@@ -1,36 +1,45 @@
 """Blocks of a Markdown file that programs write, between ``<!-- NAME -->`` and ``<!-- /NAME -->``."""
 
+import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
+BLOCK = re.compile(r"<!-- (?P<name>[^/ ]\S*) -->(?P<line>\n?).*?<!-- /(?P=name) -->", re.DOTALL)
 
-def splice(text: str, name: str, block: str) -> str:
-    """A text with another block of this name.
 
-    Raises:
-        ValueError: The text has no such block.
+def fill(text: str, block: Callable[[str], str | None]) -> str:
+    """A text with new blocks, each on lines of its own, or within a line, as it was.
+
+    Args:
+        text: A text with blocks.
+        block: Gives a block by its name; None for one that stays as it is.
     """
-    begin, end = f"<!-- {name} -->", f"<!-- /{name} -->"
-    before, found, rest = text.partition(begin)
-    _, ended, after = rest.partition(end)
-    if not found or not ended:
-        raise ValueError(f"the lines {begin} and {end} are missing")
-    return f"{before}{begin}\n{block}\n{end}{after}"
+
+    def filled(found: re.Match[str]) -> str:
+        name, line = found["name"], found["line"]
+        new = block(name)
+        return found[0] if new is None else f"<!-- {name} -->{line}{new}{line}<!-- /{name} -->"
+
+    return BLOCK.sub(filled, text)
 
 
 def write_or_check(file: Path, blocks: Mapping[str, str], *, check: bool) -> int:
     """Writes blocks into a file, or with ``check`` only compares; returns the exit status."""
-    text = fresh = file.read_text(encoding="utf-8")
-    for name, block in blocks.items():
-        try:
-            fresh = splice(fresh, name, block)
-        except ValueError as error:
-            print(f"{file}: {error}", file=sys.stderr)
-            return 1
-    if check and fresh != text:
-        print(f"{', '.join(blocks)} in {file}: out of date; run 'make docs'", file=sys.stderr)
+    text = file.read_text(encoding="utf-8")
+    missing = blocks.keys() - {found["name"] for found in BLOCK.finditer(text)}
+    if missing:
+        print(f"{file}: no lines <!-- {min(missing)} --> and <!-- /{min(missing)} -->", file=sys.stderr)
         return 1
-    if not check:
+    return write_or_compare(file, fill(text, blocks.get), check=check)
+
+
+def write_or_compare(file: Path, fresh: str, *, check: bool) -> int:
+    """Writes a file anew, or with ``check`` only compares; returns the exit status."""
+    stale = not file.exists() or file.read_text(encoding="utf-8") != fresh
+    if stale and check:
+        print(f"{file} is out of date; run 'make docs'", file=sys.stderr)
+        return 1
+    if stale:
         file.write_text(fresh, encoding="utf-8")
     return 0

@@ -1,54 +1,106 @@
-"""Puts into a Markdown file what the long comparisons found: verdict and first table of their reports.
+"""Fills Markdown files with what commands have found: reports are kept as JSON in ``docs/results/``.
 
-The reports stand in ``docs/results/``, from ``make demo``; nothing is typed by hand::
+Between markers on a page stands a table or a paragraph of a report, as between ``<!-- crawl.intact -->`` and
+``<!-- /crawl.intact -->``, or a single number of the list ``docs/results/numbers.toml``, as between
+``<!-- =name -->`` and ``<!-- /=name -->``. Beside a report, ``crawl.json``, lies its
+page, ``crawl.md``::
 
-    python docs/results.py --take crawl runs/demo/report.md   # keeps the report of a run
-    python docs/results.py README.md                          # writes the blocks
-    python docs/results.py --check README.md                  # fails where they are out of date
+    python docs/results.py            # writes all of them
+    python docs/results.py --check    # fails where one is out of date
 """
 
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
-from blocks import write_or_check
+import msgspec
+from blocks import fill, write_or_compare
 
-RESULTS = Path(__file__).parent / "results"
-COMPARISONS = ("crawl", "turn")
+from magworm_gym.learning.results import Report, Table, read_report
 
-
-def block(report: str) -> str:
-    """Table and verdict of a report, in the order in which a reader wants them."""
-    _, verdict, *rest = report.split("\n\n")
-    table = next(part for part in rest if part.startswith("| "))
-    return f"{table}\n\n{verdict}"
+DOCS = Path(__file__).parent
+RESULTS = DOCS / "results"
 
 
-def kept(report: str) -> str:
-    """A report without figures and animations, which are not kept beside it."""
-    text, _, _ = report.partition("## Figures")
-    parts = text.strip().split("\n\n")
-    return "\n\n".join(part for part in parts if not part.startswith(("![", "Animation"))) + "\n"
+class Number(msgspec.Struct, forbid_unknown_fields=True):
+    """A single number on a page.
+
+    Attributes:
+        report: Name of the report that it is of.
+        at: Its place in the JSON of the report: keys and indices.
+        form: Its format, as Python's ``format`` takes it.
+        factor: What it is multiplied by.
+    """
+
+    report: str
+    at: list[str | int]
+    form: str = ""
+    factor: float = 1.0
+
+    def text(self, folder: Path) -> str:
+        """The number as it is printed."""
+        value: Any = msgspec.json.decode((folder / f"{self.report}.json").read_bytes())
+        for key in self.at:
+            value = value[key]
+        return format(value * self.factor if self.form else value, self.form)
 
 
-def main() -> int:
+class Results:
+    """All that pages may be filled with.
+
+    Args:
+        folder: Folder of the reports and of the list of single numbers.
+
+    Raises:
+        ValueError: A report or the list is not what it should be.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.reports: dict[str, Report] = {
+            path.stem: read_report(path) for path in sorted(folder.glob("*.json"))
+        }
+        self._folder = folder
+        self._numbers = msgspec.toml.decode((folder / "numbers.toml").read_bytes(), type=dict[str, Number])
+
+    def block(self, name: str) -> str | None:
+        """The block of a name; None for one that another program writes.
+
+        Raises:
+            ValueError: No report and no number has that name.
+        """
+        report, dot, part = name.partition(".")
+        try:
+            if name.startswith("="):
+                return self._numbers[name[1:]].text(self._folder)
+            if not dot:
+                return None
+            found = self.reports[report].parts[part]
+        except (KeyError, IndexError, OSError):
+            raise ValueError(f"<!-- {name} --> is in no report and not in the list of numbers") from None
+        return found.markdown() if isinstance(found, Table) else found
+
+
+def main(arguments: list[str] | None = None, docs: Path = DOCS) -> int:
     """Reads the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(description="Puts results of the comparisons into a Markdown file.")
-    parser.add_argument("file", type=Path, help="Markdown file, or with --take the report of a run")
-    parser.add_argument("--check", action="store_true", help="only compare")
-    parser.add_argument("--take", choices=COMPARISONS, help="keep the report of a run of this comparison")
-    flags = parser.parse_args()
-    if flags.take:
-        RESULTS.mkdir(exist_ok=True)
-        report = flags.file.read_text(encoding="utf-8")
-        (RESULTS / f"{flags.take}.md").write_text(kept(report), encoding="utf-8")
-        return 0
-    text = flags.file.read_text(encoding="utf-8")
-    named = [name for name in COMPARISONS if f"<!-- {name} -->" in text]
-    reports = {name: (RESULTS / f"{name}.md").read_text(encoding="utf-8") for name in named}
-    return write_or_check(
-        flags.file, {name: block(report) for name, report in reports.items()}, check=flags.check
+    parser = argparse.ArgumentParser(
+        description="Fills README and pages with the results kept in docs/results/."
     )
+    parser.add_argument("--check", action="store_true", help="only compare")
+    check = parser.parse_args(arguments).check
+    try:
+        results = Results(docs / "results")
+        status = [
+            write_or_compare(docs / "results" / f"{name}.md", report.markdown(), check=check)
+            for name, report in results.reports.items()
+        ]
+        for page in (docs.parent / "README.md", *sorted(docs.glob("*.md"))):
+            filled = fill(page.read_text(encoding="utf-8"), results.block)
+            status.append(write_or_compare(page, filled, check=check))
+    except ValueError as error:
+        print(f"docs/results.py: {error}", file=sys.stderr)
+        return 1
+    return max(status)
 
 
 if __name__ == "__main__":
