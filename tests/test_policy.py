@@ -17,13 +17,12 @@ import pytest
 import magworm_gym
 from magworm_gym import Batch, MagWormVectorEnv, Policy, PolicyError, Scene, load_policy, save_policy
 from magworm_gym.policy import Layer, Network, Normaliser
-from magworm_gym.policy.fit import parts_of
 from magworm_gym.policy.safetensors import read_tensors, write_tensors
 
 HIDDEN = (16, 16)
 
 
-def drawn(worms: MagWormVectorEnv, identifier: str = "MagWorm/Crawl-v0", **network: Any) -> Policy:
+def drawn(worms: MagWormVectorEnv, **network: Any) -> Policy:
     """A policy of random numbers."""
     generator = np.random.default_rng(0)
     observed, acted = worms.single_observation_space.shape[0], worms.single_action_space.shape[0]
@@ -35,17 +34,13 @@ def drawn(worms: MagWormVectorEnv, identifier: str = "MagWorm/Crawl-v0", **netwo
         )
         for before, after in itertools.pairwise(sizes)
     ]
-    return Policy(
-        network=Network(layers, **network),
-        normaliser=Normaliser(
-            generator.normal(size=observed), generator.uniform(0.5, 2.0, observed), 1e-8, 10.0
-        ),
-        observation=parts_of(worms.observation_specification),
-        action=parts_of(worms.batch.action_specification),
-        stage_limits=worms.scene.stage_limits or {},
-        environment_id=identifier,
+    mean, variance = generator.normal(size=observed), generator.uniform(0.5, 2.0, observed)
+    return Policy.trained_in(
+        worms,
+        Network(layers, **network),
+        Normaliser(mean, variance, 1e-8, 10.0),
+        environment_id="MagWorm/Crawl-v0",
         arguments={"max_episode_steps": 7},
-        scene=worms.scene,
         sentence="Moves at random.",
         provenance={"trained": "not at all"},
     )

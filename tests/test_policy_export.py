@@ -14,7 +14,7 @@ from stable_baselines3 import PPO, SAC  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize  # noqa: E402
 
 from magworm_gym import Policy, PolicyError, load_policy, save_policy  # noqa: E402
-from magworm_gym.learning.actor import policy_of  # noqa: E402
+from magworm_gym.learning.actor import network_of, normaliser_of  # noqa: E402
 from magworm_gym.learning.export import _Spaces, export_onnx, export_sb3  # noqa: E402
 from magworm_gym.sb3 import MagWormVecEnv  # noqa: E402
 
@@ -46,10 +46,10 @@ def trained(name: str, normalise: bool) -> tuple[Any, VecNormalize | None, Polic
     with torch.no_grad():
         for values in model.policy.parameters():
             values.copy_(torch.randn(values.shape, generator=generator) * 1.5 / values.shape[-1] ** 0.5)
-    policy = policy_of(
-        model,
-        normalisation,
+    policy = Policy.trained_in(
         robots.worms,
+        network_of(model),
+        normaliser_of(normalisation, 25),
         environment_id="MagWorm/Crawl-v0",
         arguments={},
         sentence="Is random.",
@@ -115,15 +115,7 @@ def test_an_actor_that_is_no_perceptron_of_tanh_or_relu_is_refused() -> None:
         kind, _ = KINDS[name]
         model = kind("MlpPolicy", MagWormVecEnv(1), policy_kwargs={"activation_fn": activation}, device="cpu")
         with pytest.raises(PolicyError, match="allowed: linear layers with tanh or relu"):
-            policy_of(
-                model,
-                None,
-                MagWormVecEnv(1).worms,
-                environment_id="MagWorm/Crawl-v0",
-                arguments={},
-                sentence="",
-                provenance={},
-            )
+            network_of(model)
 
 
 def test_normalised_environments_are_refused() -> None:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import numbers, shown
-from magworm_gym.policy.fit import check_fit
+from magworm_gym.policy.fit import check_fit, parts_of
 from magworm_gym.policy.mistake import PolicyError
 from magworm_gym.policy.network import Network, Normaliser
 from magworm_gym.scene import AnyScene, load_scene
@@ -70,6 +70,36 @@ class Policy:
                 raise PolicyError(f"{what} {size} numbers; allowed by the specification: {allowed}")
         if not np.isfinite([self.low, self.high]).all():
             raise PolicyError("an action has no bounds; allowed: finite ones")
+
+    @classmethod
+    def trained_in(
+        cls,
+        worms: MagWormVectorEnv,
+        network: Network,
+        normaliser: Normaliser,
+        *,
+        environment_id: str,
+        arguments: Mapping[str, Any],
+        sentence: str,
+        provenance: Mapping[str, Any],
+    ) -> Policy:
+        """A policy that was trained in environments, whose specification and scene it takes.
+
+        Raises:
+            PolicyError: The network or the normaliser does not fit them.
+        """
+        return cls(
+            network=network,
+            normaliser=normaliser,
+            observation=parts_of(worms.observation_specification),
+            action=parts_of(worms.batch.action_specification),
+            stage_limits=worms.scene.stage_limits or {},
+            environment_id=environment_id,
+            arguments=arguments,
+            scene=worms.scene,
+            sentence=sentence,
+            provenance=provenance,
+        )
 
     def __call__(self, observations: ArrayLike) -> Singles:
         """Actions for observations, without exploring: the same for the same.
