@@ -373,13 +373,13 @@ def test_a_policy_that_is_not_there_is_told_from_those_that_are(tmp_path: Path) 
 
 def test_a_folder_that_holds_something_else_is_left_alone(crawler: Policy, tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("all of it")
-    with pytest.raises(ValueError, match="holds no policy"):
+    with pytest.raises(PolicyError, match="holds no policy"):
         save_policy(tmp_path, crawler)
     assert (tmp_path / "thesis.tex").read_text() == "all of it"
     save_policy(tmp_path / "policy", crawler)
     save_policy(tmp_path / "policy", replace(crawler, sentence="Again."))
     assert load_policy(tmp_path / "policy").sentence == "Again."
-    with pytest.raises(ValueError, match="JSON"):
+    with pytest.raises(PolicyError, match="JSON"):
         save_policy(tmp_path / "policy", replace(crawler, provenance={"at": tmp_path}))
     assert load_policy(tmp_path / "policy").sentence == "Again."
 

@@ -1,6 +1,7 @@
 """Policies of Stable-Baselines3 and in the formats of others: equal to what their own programs compute."""
 
 import copy
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from stable_baselines3 import PPO, SAC  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize  # noqa: E402
 
 from magworm_gym import Policy, PolicyError, load_policy, save_policy  # noqa: E402
+from magworm_gym.cli import main  # noqa: E402
 from magworm_gym.learning.actor import network_of, normaliser_of  # noqa: E402
 from magworm_gym.learning.export import _Spaces, export_onnx, export_sb3  # noqa: E402
 from magworm_gym.sb3 import MagWormVecEnv  # noqa: E402
@@ -106,7 +108,7 @@ def test_stable_baselines3_loads_a_policy_that_acts_the_same(name: str, tmp_path
     assert not normalisation.training
     assert np.abs(predicted(model, normalisation, seen) - policy(seen)).max() < TOLERANCE
     (tmp_path / "sb3" / "notes.txt").touch()
-    with pytest.raises(ValueError, match="other files"):
+    with pytest.raises(PolicyError, match="other files"):
         export_sb3(policy, tmp_path / "sb3")
 
 
@@ -123,3 +125,27 @@ def test_normalised_environments_are_refused() -> None:
     policy.check_fit(MagWormVecEnv(1))
     with pytest.raises(PolicyError, match="a wrapper"):
         policy.check_fit(normalisation)
+
+
+def test_the_command_writes_both_and_says_what_is_wrong(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("onnx")
+    _, _, policy = trained("SAC", True)
+    save_policy(tmp_path / "policy", policy)
+    for words, code, told in (
+        (["policies"], 0, ""),
+        (["export-policy", str(tmp_path / "policy"), "--onnx", str(tmp_path / "p.onnx")], 0, "p.onnx"),
+        (["export-policy", str(tmp_path / "policy"), "--sb3", str(tmp_path / "sb3")], 0, "sb3"),
+        (["export-policy", str(tmp_path / "policy"), "--sb3", str(tmp_path)], 2, "which holds other files"),
+        (["export-policy", "crawl-99", "--sb3", str(tmp_path / "sb3")], 2, "policy is 'crawl-99'; allowed: "),
+    ):
+        with pytest.raises(SystemExit) as ended:
+            main(words)
+        out = "".join(capsys.readouterr())
+        assert ended.value.code == code and told in out and "Traceback" not in out
+    assert (tmp_path / "p.onnx").exists() and (tmp_path / "sb3" / "model.zip").exists()
+    monkeypatch.setitem(sys.modules, "onnx", None)
+    with pytest.raises(SystemExit):
+        main(["export-policy", str(tmp_path / "policy"), "--onnx", str(tmp_path / "p.onnx")])
+    assert 'pip install "magworm-gym[export]"' in capsys.readouterr().err

@@ -5,8 +5,8 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from magworm_gym import SceneError, __version__
-from magworm_gym.cli import example_tracks, identify
+from magworm_gym import PolicyError, SceneError, __version__
+from magworm_gym.cli import example_tracks, identify, policies
 from magworm_gym.identification.mistake import ProblemError
 
 MISTAKE = 2
@@ -23,7 +23,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     parsed = _parser().parse_args(words, argparse.Namespace(words=words))
     try:
         parsed.run(parsed)
-    except (ProblemError, SceneError, ImportError) as mistake:
+    except (ProblemError, SceneError, PolicyError, ImportError) as mistake:
         if isinstance(mistake, ImportError) and "pip install" not in str(mistake):
             raise
         print(f"magworm {parsed.command}: {mistake}", file=sys.stderr)
@@ -40,4 +40,5 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="command")
     identify.add_to(commands)
     example_tracks.add_to(commands)
+    policies.add_to(commands)
     return parser

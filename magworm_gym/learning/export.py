@@ -10,7 +10,7 @@ import numpy as np
 
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import new_folder, replace_file
-from magworm_gym.policy import Policy
+from magworm_gym.policy import Policy, PolicyError
 from magworm_gym.spaces import box
 
 OPSET = 17
@@ -103,7 +103,7 @@ def export_sb3(policy: Policy, folder: str | Path) -> None:
         folder: The folder of both files; replaced if it is there.
 
     Raises:
-        ValueError: The folder holds something else.
+        PolicyError: The folder holds something else.
         ImportError: The extra ``magworm-gym[train]`` is missing.
     """
     try:
@@ -116,7 +116,7 @@ def export_sb3(policy: Policy, folder: str | Path) -> None:
         raise ImportError('Stable-Baselines3 needs: pip install "magworm-gym[train]"') from None
     path = path_of("folder", folder)
     if path.exists() and {entry.name for entry in path.iterdir()} - {MODEL, NORMALISER}:
-        raise ValueError(f"folder is {str(path)!r}, which holds other files; allowed: a new or empty folder")
+        raise PolicyError(f"folder is {str(path)!r}, which holds other files; allowed: a new or empty folder")
     network, normaliser = policy.network, policy.normaliser
     kind: type[PPO] | type[SAC] = SAC if network.squashed else PPO
     options: dict[str, Any] = {

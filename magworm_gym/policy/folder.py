@@ -84,11 +84,11 @@ def save_policy(folder: str | PathLike[str], policy: Policy) -> None:
         policy: What to write.
 
     Raises:
-        ValueError: The folder holds something else, or arguments or provenance are no plain values.
+        PolicyError: The folder holds something else, or arguments or provenance are no plain values.
     """
     path = path_of("folder", folder)
     if os.path.isdir(path) and any(path.iterdir()) and not (path / DOCUMENT).exists():
-        raise ValueError(
+        raise PolicyError(
             f"folder is {shown(str(path))}, which holds no policy; allowed: a new or empty folder"
         )
     network, normaliser = policy.network, policy.normaliser
@@ -114,8 +114,8 @@ def save_policy(folder: str | PathLike[str], policy: Policy) -> None:
     }
     try:
         text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
-    except TypeError as error:
-        raise ValueError(f"the policy holds what JSON cannot: {error}") from None
+    except (TypeError, ValueError) as error:
+        raise PolicyError(f"the policy holds what JSON cannot: {error}") from None
     tensors: dict[str, Singles] = {}
     for number, layer in enumerate(network.layers):
         tensors |= {f"{number}.weight": layer.weight, f"{number}.bias": layer.bias}
