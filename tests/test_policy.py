@@ -68,13 +68,13 @@ def test_a_policy_that_was_saved_acts_as_before(network: dict[str, Any], tmp_pat
     loaded = load_policy(tmp_path / "policy")
     seen = observations(policy)
     assert np.array_equal(loaded(seen), policy(seen))
+    assert loaded.scenes == [policy.scene]
     for name in (
         "observation",
         "action",
         "stage_limits",
         "environment_id",
         "arguments",
-        "scene",
         "provenance",
     ):
         assert getattr(loaded, name) == getattr(policy, name)
@@ -119,6 +119,16 @@ def test_a_policy_makes_the_environments_that_it_was_trained_for(crawler: Policy
     seen, _ = worms.reset(seed=0)
     assert worms.action_space.contains(crawler(seen))
     assert crawler.make_vec(max_episode_steps=9).max_episode_steps == 9
+
+
+def test_a_policy_of_several_scenes_makes_environments_of_all(tmp_path: Path) -> None:
+    scenes = [Scene.preset("paper-3").with_values({"ground.static_friction": value}) for value in (0.9, 1.1)]
+    save_policy(tmp_path / "policy", drawn(MagWormVectorEnv(2, scenes)))
+    policy = load_policy(tmp_path / "policy")
+    assert policy.make_vec(num_envs=4).scenes == tuple(policy.scenes) == tuple(scenes)
+    policy.check_fit(MagWormVectorEnv(1, scenes[1]))
+    with pytest.raises(PolicyError, match="other_scene=True"):
+        policy.check_fit(MagWormVectorEnv(1, "paper-3"))
 
 
 def test_another_scene_of_equal_specification_has_to_be_asked_for(crawler: Policy) -> None:
@@ -219,6 +229,7 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
     "parts that are none": at("observation", ["magnet_x"]),
     "an action without bounds": edited(lambda document: document["action"][0].update(high=None)),
     "arguments that are none": at("arguments", [], "environment"),
+    "more scenes than there are": at("scenes", 2),
     "no sentence": edited(lambda document: document.pop("sentence")),
     "stage limits as text": at("stage_limits", {"reach_m": "0.06"}),
     "no weights": lambda folder: (folder / "weights.safetensors").unlink(),
@@ -356,6 +367,9 @@ def test_nothing_of_a_folder_is_run(folder: Path, tmp_path: Path, monkeypatch: p
             with pytest.raises(PolicyError):
                 load_policy(crafted)
         shutil.rmtree(crafted)
+    at("num_envs", 3, "environment", "arguments")(folder)
+    with pytest.raises(PolicyError, match="does not take the arguments"):
+        load_policy(folder).make_vec()
     for identifier in ("trap:MagWorm/Crawl-v0", "trap", "CartPole-v1"):
         at("id", identifier, "environment")(folder)
         with pytest.raises(PolicyError, match="no registered environment of worms"):

@@ -21,7 +21,7 @@ def check_fit(policy: Policy, environment: Any, *, other_scene: bool) -> None:
     _compare("action", policy.action, getattr(simulated, "batch", simulated).action_specification)
     for scene in simulated.scenes:
         _compare_limits(policy.stage_limits, scene.stage_limits or {})
-        if scene != policy.scene and not other_scene:
+        if scene not in policy.scenes and not other_scene:
             raise PolicyError(
                 f"the policy was trained in scene {policy.scene.name!r}, and {scene.name!r} differs from it; "
                 "allowed: the same scene, or other_scene=True"

@@ -1,7 +1,8 @@
 """A policy as a folder, and the folders that come with the package.
 
-``policy.json`` says all that can be said in words and few numbers, ``scene.toml`` is the scene, and
-``weights.safetensors`` holds the layers. Nothing of it is ever run.
+``policy.json`` says all that can be said in words and few numbers; ``scene.toml`` is the scene, and where
+there are several, the others are ``scene-1.toml`` and so on; ``weights.safetensors`` holds the layers.
+Nothing of it is ever run.
 """
 
 from __future__ import annotations
@@ -27,7 +28,6 @@ from magworm_gym.policy.safetensors import Singles, read_tensors, write_tensors
 from magworm_gym.spaces import Part
 
 DOCUMENT = "policy.json"
-SCENE = "scene.toml"
 WEIGHTS = "weights.safetensors"
 FORMAT = "magworm-policy-1"
 SHIPPED = Path(__file__).parent / "shipped"
@@ -70,7 +70,7 @@ def load_policy(policy: str | PathLike[str]) -> Policy:
         stage_limits=document.table("stage_limits").each_number(),
         environment_id=environment.entry("id", str),
         arguments=environment.table("arguments").plain(),
-        scene=_scene(folder / SCENE),
+        scenes=[_scene(folder / _scene_name(number)) for number in range(document.size("scenes"))],
         sentence=document.entry("sentence", str),
         provenance=document.table("provenance").plain(),
     )
@@ -96,6 +96,7 @@ def save_policy(folder: str | PathLike[str], policy: Policy) -> None:
         "format": FORMAT,
         "sentence": policy.sentence,
         "environment": {"id": policy.environment_id, "arguments": policy.arguments},
+        "scenes": len(policy.scenes),
         "provenance": policy.provenance,
         "network": {
             "activation": network.activation,
@@ -121,7 +122,8 @@ def save_policy(folder: str | PathLike[str], policy: Policy) -> None:
         tensors |= {f"{number}.weight": layer.weight, f"{number}.bias": layer.bias}
     with new_folder(path) as part:
         (part / DOCUMENT).write_text(text + "\n", encoding="utf-8")
-        (part / SCENE).write_text(policy.scene.to_toml(), encoding="utf-8")
+        for number, scene in enumerate(policy.scenes):
+            (part / _scene_name(number)).write_text(scene.to_toml(), encoding="utf-8")
         write_tensors(part / WEIGHTS, tensors)
 
 
@@ -138,6 +140,10 @@ def _layers(path: Path) -> list[Layer]:
 def _normaliser(table: Table) -> Normaliser:
     mean, variance = np.array(table.numbers("mean")), np.array(table.numbers("variance"))
     return Normaliser(mean, variance, table.number("epsilon"), table.number("clip", null=np.inf))
+
+
+def _scene_name(number: int) -> str:
+    return f"scene-{number}.toml" if number else "scene.toml"
 
 
 def _scene(path: Path) -> Scene:

@@ -15,7 +15,7 @@ from magworm_gym.arguments import numbers, shown
 from magworm_gym.policy.fit import check_fit, parts_of
 from magworm_gym.policy.mistake import PolicyError
 from magworm_gym.policy.network import Network, Normaliser
-from magworm_gym.scene import AnyScene, load_scene
+from magworm_gym.scene import AnyScenes, load_scenes
 from magworm_gym.spaces import Part
 from magworm_gym.vector_env import MagWormVectorEnv
 
@@ -39,7 +39,7 @@ class Policy:
         stage_limits: What an action of −1 or 1 is, see :attr:`Scene.stage_limits`.
         environment_id: Gymnasium's identifier of the environment that it was trained for.
         arguments: That environment's arguments beside scene and number; plain values.
-        scene: The scene that it was trained in.
+        scenes: The scene that it was trained in, or several of one shape.
         sentence: What it does, in one sentence.
         provenance: How it was trained and what it reaches; plain values.
 
@@ -54,7 +54,7 @@ class Policy:
     stage_limits: Mapping[str, float]
     environment_id: str
     arguments: Mapping[str, Any]
-    scene: Scene
+    scenes: Sequence[Scene]
     sentence: str
     provenance: Mapping[str, Any] = field(default_factory=dict)
 
@@ -96,7 +96,7 @@ class Policy:
             stage_limits=worms.scene.stage_limits or {},
             environment_id=environment_id,
             arguments=arguments,
-            scene=worms.scene,
+            scenes=worms.scenes,
             sentence=sentence,
             provenance=provenance,
         )
@@ -128,7 +128,7 @@ class Policy:
         self,
         num_envs: int = 1,
         *,
-        scene: AnyScene | None = None,
+        scene: AnyScenes | None = None,
         other_scene: bool = False,
         **arguments: Any,
     ) -> MagWormVectorEnv:
@@ -136,7 +136,7 @@ class Policy:
 
         Args:
             num_envs: Number of environments N.
-            scene: Preset, path of a TOML file, or scene; None for the policy's own.
+            scene: Preset, path of a TOML file, or scene, or a list of several; None for the policy's own.
             other_scene: Whether the scene may differ from the policy's own.
             **arguments: Arguments of the environment that replace those of the training.
 
@@ -152,12 +152,13 @@ class Policy:
                 f"environment {shown(self.environment_id)} is no registered environment of worms; allowed: "
                 "one that is, so import first what registers it"
             )
-        made = gymnasium.make_vec(
-            self.environment_id,
-            num_envs=num_envs,
-            scene=self.scene if scene is None else load_scene(scene),
-            **{**self.arguments, **arguments},
-        )
+        scenes = self.scenes if scene is None else load_scenes(scene)
+        try:
+            made = gymnasium.make_vec(
+                self.environment_id, num_envs=num_envs, scene=scenes, **{**self.arguments, **arguments}
+            )
+        except TypeError as error:
+            raise PolicyError(f"{self.environment_id} does not take the arguments: {error}") from None
         assert isinstance(made, MagWormVectorEnv), "the entry point that was registered"
         self.check_fit(made, other_scene=other_scene)
         return made
@@ -175,6 +176,11 @@ class Policy:
                 scene is another.
         """
         check_fit(self, environment, other_scene=other_scene)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that it was trained in; the first of several."""
+        return self.scenes[0]
 
     @property
     def low(self) -> Singles:
