@@ -106,14 +106,14 @@ impl Batch {
 
     #[getter]
     fn parameter_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, parameter_names())
+        PyTuple::new(py, parameter_names(&self.ensemble))
     }
 
     fn set_parameter(&self, name: &Bound<'_, PyAny>, factors: &Bound<'_, PyAny>) -> PyResult<()> {
         let (parameter, column) = parameter(name)?;
         let factors = read::<f64>("factors", factors, &[self.count])?;
-        check_factors(&self.model, parameter, &factors)?;
         let mut batch = self.writing()?;
+        check_factors(&batch, parameter, &factors)?;
         let rows = batch.factors_mut().chunks_mut(Model::PARAMETERS.len());
         rows.zip(factors).for_each(|(row, factor)| row[column] = factor);
         Ok(())

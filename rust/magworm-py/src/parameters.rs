@@ -2,18 +2,22 @@
 
 use crate::arguments::text;
 use crate::errors::value_error;
-use magworm::Model;
 use magworm::scene::Parameter;
+use magworm::{Ensemble, Model};
 use pyo3::prelude::*;
+use std::ops::RangeInclusive;
 
-/// Their names.
-pub fn parameter_names() -> Vec<&'static str> {
-    Model::PARAMETERS.iter().map(|parameter| parameter.name()).collect()
+/// Names of those that act in every scene.
+pub fn parameter_names(ensemble: &Ensemble) -> Vec<&'static str> {
+    let acts = |&parameter: &Parameter| {
+        ensemble.models().iter().all(|model| model.scene.magnetic_terms.has(parameter))
+    };
+    Model::PARAMETERS.into_iter().filter(acts).map(Parameter::name).collect()
 }
 
 /// A parameter and its column.
 pub fn parameter(name: &Bound<'_, PyAny>) -> PyResult<(Parameter, usize)> {
-    let allowed = parameter_names().join(", ");
+    let allowed = Model::PARAMETERS.map(Parameter::name).join(", ");
     let given = text("name", name, &allowed)?;
     let column = Model::PARAMETERS.iter().position(|parameter| parameter.name() == given);
     match column {
@@ -22,21 +26,28 @@ pub fn parameter(name: &Bound<'_, PyAny>) -> PyResult<(Parameter, usize)> {
     }
 }
 
-/// Factors must be finite, of most parameters not negative, and 1 of a term that the scene leaves out.
-pub fn check_factors(model: &Model, parameter: Parameter, factors: &[f64]) -> PyResult<()> {
-    let name = parameter.name();
-    let (least, most, allowed) = match parameter {
-        _ if !model.scene.magnetic_terms.has(parameter) => {
-            (1.0, 1.0, format!("1, as magnetic_terms.{name} of the scene is false"))
-        }
-        Parameter::DriveSpeed => (-1e3, 1e3, "-1e3 to 1e3".into()),
-        _ => (0.0, 1e3, "0 to 1e3".into()),
+/// Factors, one for each environment of a batch, must be finite, of most parameters not negative, and 1 of a term that the
+/// environment's scene leaves out.
+pub fn check_factors(
+    batch: &magworm::Batch,
+    parameter: Parameter,
+    factors: &[f64],
+) -> PyResult<()> {
+    let allowed = |environment: usize| match parameter {
+        _ if !batch.model_of(environment).scene.magnetic_terms.has(parameter) => 1.0..=1.0,
+        Parameter::DriveSpeed => -1e3..=1e3,
+        _ => 0.0..=1e3,
     };
-    match factors.iter().position(|factor| !(least..=most).contains(factor)) {
-        None => Ok(()),
-        Some(k) => Err(value_error(format!(
-            "factor of {name} in environment {k} is {}; allowed: {allowed}",
-            factors[k]
-        ))),
-    }
+    let wrong = (0..factors.len()).find(|&k| !allowed(k).contains(&factors[k]));
+    wrong.map_or(Ok(()), |k| Err(refused(parameter.name(), k, factors[k], &allowed(k))))
+}
+
+fn refused(name: &str, environment: usize, factor: f64, allowed: &RangeInclusive<f64>) -> PyErr {
+    let allowed = match (allowed.start(), allowed.end()) {
+        (1.0, 1.0) => format!("1, as magnetic_terms.{name} of the scene is false"),
+        (low, high) => format!("{low:e} to {high:e}").replace("0e0", "0"),
+    };
+    value_error(format!(
+        "factor of {name} in environment {environment} is {factor}; allowed: {allowed}"
+    ))
 }
