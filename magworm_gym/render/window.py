@@ -24,20 +24,24 @@ class Window:
         except ImportError as error:
             raise ImportError("A window needs pygame: pip install 'magworm-gym[render]'.") from error
         self._pygame: Any = pygame
+        # The display of pygame is one window, which all would share.
+        from pygame._sdl2 import video
+
         pygame.display.init()
-        self._screen = pygame.display.set_mode((width, height))
-        pygame.display.set_caption(title)
+        self._video: Any = video
+        self._window = video.Window(title, size=(width, height))
+        self._renderer = video.Renderer(self._window)
 
     def show(self, frame: NDArray[np.uint8]) -> None:
         """Shows a frame (H, W, 3) and answers the events of the window system."""
         surface = self._pygame.surfarray.make_surface(frame.swapaxes(0, 1))
-        self._screen.blit(surface, (0, 0))
+        self._video.Texture.from_surface(self._renderer, surface).draw()
         self._pygame.event.pump()
-        self._pygame.display.flip()
+        self._renderer.present()
 
     def close(self) -> None:
         """Closes the window."""
-        self._pygame.display.quit()
+        self._window.destroy()
 
 
 class Windowed:
