@@ -13,6 +13,7 @@ The Stable-Baselines3 adapter is :mod:`magworm_gym.sb3`, the checker for vector 
 from magworm_gym._magworm import PRESETS, Batch, Scene, SceneError, __version__
 from magworm_gym.env import MagWormEnv
 from magworm_gym.policy import Policy, PolicyError, load_policy, policies, save_policy
+from magworm_gym.randomise import Randomise
 from magworm_gym.recording import Recording, record_scenes
 from magworm_gym.registration import CRAWL_ID, REACH_ID, TURN_ID, register_environments
 from magworm_gym.rollout import Rollout
@@ -29,6 +30,7 @@ __all__ = [
     "MagWormVectorEnv",
     "Policy",
     "PolicyError",
+    "Randomise",
     "Recording",
     "Rollout",
     "Scene",

@@ -90,6 +90,14 @@ def positive(name: str, value: int) -> int:
     return number
 
 
+def share(name: str, value: float, *, below: bool = False) -> float:
+    """A number from 0 to 1; with `below` less than 1."""
+    number = None if isinstance(value, (bool, np.bool_)) else numbers(value)
+    if number is None or number.shape or not (0.0 <= number < 1.0 or (number == 1.0 and not below)):
+        raise ValueError(f"{name} is {shown(value)}; allowed: 0 to {'below ' if below else ''}1")
+    return float(number)
+
+
 def choice(name: str, value: T, allowed: Sequence[T]) -> T:
     """One of the words allowed, or None where that is."""
     if not (value is None or isinstance(value, str)) or value not in allowed:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Any
 
 import gymnasium
@@ -15,9 +16,11 @@ from magworm_gym.arguments import action_rows
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.drawing import Frame
 from magworm_gym.infos import Infos, info_of
+from magworm_gym.randomise import AnyRandomise
 from magworm_gym.rollout import Rollout
 from magworm_gym.scene import AnyScene
-from magworm_gym.vector_env import RENDER_MODES, MagWormVectorEnv, Observations
+from magworm_gym.vector_env import RENDER_MODES, Lanes, MagWormVectorEnv, RenderMode
+from magworm_gym.worlds import Observations
 
 
 class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
@@ -39,6 +42,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         lanes: "scalar", or "wide" for SIMD, which cannot help one environment; equal bit for bit.
         threads: Most threads to use: one environment needs no more than 1.
         task: "crawl", "turn" or "reach".
+        randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -51,10 +55,11 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         self,
         scene: AnyScene | None = None,
         max_episode_steps: int | None = None,
-        render_mode: str | None = None,
-        lanes: str = "scalar",
+        render_mode: RenderMode | None = None,
+        lanes: Lanes = "scalar",
         threads: int | None = 1,
         task: str = "crawl",
+        randomise: AnyRandomise | None = None,
     ) -> None:
         self._worms = MagWormVectorEnv(
             num_envs=1,
@@ -65,6 +70,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
             lanes=lanes,
             threads=threads,
             task=task,
+            randomise=randomise,
         )
         self.render_mode = render_mode
         self.metadata = {key: self._worms.metadata[key] for key in ("render_modes", "render_fps")}
@@ -157,6 +163,10 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
     def set_state(self, state: bytes) -> None:
         """Goes on from a state of an environment with the same scene. Raises ValueError, changing nothing."""
         self._worms.set_state(state)
+
+    def __copy__(self) -> MagWormEnv:
+        """A copy of its own in every respect: two could not share one simulation."""
+        return deepcopy(self)
 
     def close(self) -> None:
         """Closes the window. May be called twice."""

@@ -12,14 +12,14 @@ Infos = dict[str, Any]
 
 
 def add(infos: Infos, key: str, values: NDArray[Any], mask: Flags) -> None:
-    """Adds values (N, …) where mask (N,) is set; a key that holds for no environment is left out."""
-    if key not in infos and mask.all():  # a step in which no episode ends: most of them
+    """Adds values (N, …) where mask (N,) is set; where a key holds for no environment they are 0 or None."""
+    if mask.all():  # a step in which no episode ends: most of them
         infos[key], infos[f"_{key}"] = values.copy(), mask.copy()
-    elif mask.any():
-        nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
-        chosen = mask.reshape(-1, *(1,) * (values.ndim - 1))
-        infos[key] = np.where(chosen, values, infos.get(key, nothing))
-        infos[f"_{key}"] = mask | infos.get(f"_{key}", False)
+        return
+    nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
+    chosen = mask.reshape(-1, *(1,) * (values.ndim - 1))
+    infos[key] = np.where(chosen, values, infos.get(key, nothing))
+    infos[f"_{key}"] = mask | infos.get(f"_{key}", False)
 
 
 def rows(observations: NDArray[Any]) -> NDArray[np.object_]:
@@ -31,8 +31,9 @@ def rows(observations: NDArray[Any]) -> NDArray[np.object_]:
 
 def reasons(status: NDArray[np.uint8]) -> NDArray[np.object_]:
     """Why each environment broke, in words (N,); None where it runs."""
-    texts = np.empty(len(status), np.object_)
-    texts[:] = [Batch.status_text(int(code)) if code else None for code in status]
+    texts = np.full(len(status), None, np.object_)
+    for i in np.flatnonzero(status).tolist():
+        texts[i] = Batch.status_text(int(status[i]))
     return texts
 
 

@@ -61,7 +61,10 @@ def outcome_of(result: TaskResult, status: NDArray[np.uint8], stepping: Flags, a
 
 
 def step_infos(outcome: Outcome, seen: Mapping[str, Floats], mask: Flags) -> Infos:
-    """Infos of the environments of mask (N,): what was seen, what the task adds, how episodes ended."""
+    """Infos of the environments of mask (N,): what was seen, what the task adds, how episodes ended.
+
+    The keys are the same in every step; where a key holds for no environment its mask says so.
+    """
     infos: Infos = {}
     for key, values in (*seen.items(), *outcome.result.infos.items()):
         add(infos, key, values, mask)
@@ -69,6 +72,5 @@ def step_infos(outcome: Outcome, seen: Mapping[str, Floats], mask: Flags) -> Inf
     add(infos, "time_limit", outcome.timed_out, ended)
     if outcome.result.success is not None:
         add(infos, "is_success", outcome.result.success & ~outcome.broken, ended)
-    if outcome.broken.any():
-        add(infos, "broken", reasons(outcome.status), mask & outcome.broken)
+    add(infos, "broken", reasons(outcome.status), mask & outcome.broken)
     return infos

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +13,13 @@ from magworm_gym.arguments import numbers, shown, whole
 
 if TYPE_CHECKING:
     from magworm_gym._magworm import Batch
-    from magworm_gym.tasks import GoalOption
+    from magworm_gym.tasks import GoalOption, Task
+
+AnyOptions: TypeAlias = Mapping[str, Any] | Sequence[Mapping[str, Any] | None] | None
+"""Options of a reset for all environments, or a mapping for each."""
+
+MASK = "reset_mask"
+"""The option that chooses the environments to reset."""
 
 START_LIMITS = {"x_m": 10.0, "height_m": 10.0, "angle_deg": 360.0}
 """Fields of the option `start`, each with its largest magnitude: those of a scene but for the shape."""
@@ -29,61 +34,93 @@ def start_limits(dimensions: int) -> dict[str, float]:
 
 
 def furthest_start(dimensions: int) -> float:
-    """The largest magnitude of a number of a start that :func:`read_options` has checked [m, rad]."""
+    """The largest magnitude of a number of a start that :meth:`Allowed.read` has checked [m, rad]."""
     limits = start_limits(dimensions).items()
     return max(float(np.deg2rad(limit)) if name.endswith("_deg") else limit for name, limit in limits)
 
 
 @dataclass(frozen=True)
 class ResetOptions:
-    """Checked options for N environments with M magnets each.
+    """Checked options for N environments with M magnets each; NaN where an option says nothing.
 
     Attributes:
         mask: (N,) environments to reset.
-        start: (N, 3) pose: x [m], height [m], angle [rad]; in space (N, 5), with z [m], yaw [rad];
-            None for the scene's.
-        present: (N, M) False where a magnet is taken out; None for the scene's robot.
-        factors: Factors (N,) of the scene's value, by name of the parameter.
-        goal: (N, goal) goals of the task; None to draw them.
+        start: (N, 3) pose: x [m], height [m], angle [rad]; in space (N, 5), with z [m], yaw [rad].
+        present: (N, M) 1 where a magnet is in place, 0 where it is taken out.
+        factors: (N, P) factors of the scene's values, in the order of ``parameter_names``.
+        goal: (N, goal) goals of the task.
     """
 
     mask: NDArray[np.bool_]
-    start: NDArray[np.float64] | None
-    present: NDArray[np.bool_] | None
-    factors: dict[str, NDArray[np.float64]]
-    goal: NDArray[np.float64] | None
+    start: NDArray[np.float64]
+    present: NDArray[np.float64]
+    factors: NDArray[np.float64]
+    goal: NDArray[np.float64]
 
 
-def read_options(
-    options: Mapping[str, Any] | None,
-    *,
-    num_envs: int,
-    magnets: int,
-    parameter_names: Sequence[str],
-    dimensions: int = 2,
-    goal_option: GoalOption | None = None,
-) -> ResetOptions:
-    """Reads `options` without changing it.
+@dataclass(frozen=True)
+class Allowed:
+    """What options of an environment may say.
 
-    Raises:
-        ValueError: Names the field, its value and what is allowed.
+    Attributes:
+        magnets: Number of body magnets M, those that the scene lacks included.
+        parameter_names: Names of the parameters.
+        start: Fields of a start, each with its largest magnitude.
+        goal: The option that sets a goal; None for a task without one.
     """
-    names = ["start", "removed", "parameters", "reset_mask"]
-    if goal_option is not None:
-        names.append(goal_option.name)
-    options = _mapping("options", {} if options is None else options, names)
-    goal = options.get(goal_option.name) if goal_option is not None else None
-    mask = options.get("reset_mask")
-    start = options.get("start")
-    removed = options.get("removed")
-    parameters = options.get("parameters")
-    return ResetOptions(
-        mask=np.ones(num_envs, np.bool_) if mask is None else _mask(mask, num_envs),
-        start=None if start is None else _start(start, num_envs, start_limits(dimensions)),
-        present=None if removed is None else _present(removed, num_envs, magnets),
-        factors={} if parameters is None else _factors(parameters, num_envs, parameter_names),
-        goal=None if goal_option is None or goal is None else _goal(goal, num_envs, goal_option),
-    )
+
+    magnets: int
+    parameter_names: tuple[str, ...]
+    start: Mapping[str, float]
+    goal: GoalOption | None
+
+    @classmethod
+    def of(cls, batch: Batch, task: Task) -> Allowed:
+        """Those of the environments of a batch."""
+        scene = batch.scene
+        return cls(scene.magnets, batch.parameter_names, start_limits(scene.dimensions), task.goal_option)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """How many numbers there are for an environment, by attribute of :class:`ResetOptions`."""
+        return {
+            "start": len(self.start),
+            "present": self.magnets,
+            "factors": len(self.parameter_names),
+            "goal": 0 if self.goal is None else self.goal.size,
+        }
+
+    def read(self, options: AnyOptions, num_envs: int) -> ResetOptions:
+        """Reads options for N environments, or one mapping for each of them, without changing them.
+
+        Raises:
+            ValueError: Names the field, its value and what is allowed.
+        """
+        if not isinstance(options, (list, tuple)):
+            return self._read({} if options is None else options, num_envs, (MASK,))
+        if len(options) != num_envs:
+            raise ValueError(
+                f"options is {shown(options)}; it must be a mapping, or one for each environment ({num_envs})"
+            )
+        each = [self._read({} if one is None else one, 1, ()) for one in options]
+        rows = {f.name: np.concatenate([getattr(one, f.name) for one in each]) for f in fields(ResetOptions)}
+        return ResetOptions(**rows)
+
+    def _read(self, options: Any, num_envs: int, more: tuple[str, ...]) -> ResetOptions:
+        goal_names = () if self.goal is None else (self.goal.name,)
+        given = _mapping("options", options, ("start", "removed", "parameters", *more, *goal_names))
+        asked = {name: value for name, value in given.items() if value is not None}
+        rows = {name: np.full((num_envs, size), np.nan) for name, size in self.sizes.items()}
+        if "start" in asked:
+            rows["start"] = _start(asked["start"], num_envs, self.start)
+        if "removed" in asked:
+            rows["present"] = _present(asked["removed"], num_envs, self.magnets)
+        if "parameters" in asked:
+            rows["factors"] = _factors(asked["parameters"], num_envs, self.parameter_names)
+        if self.goal is not None and self.goal.name in asked:
+            rows["goal"] = _goal(asked[self.goal.name], num_envs, self.goal)
+        mask = _mask(asked[MASK], num_envs) if MASK in asked else np.ones(num_envs, np.bool_)
+        return ResetOptions(mask=mask, **rows)
 
 
 def _mapping(field: str, value: Any, allowed: Sequence[str]) -> Mapping[str, Any]:
@@ -140,9 +177,9 @@ def _start(value: Any, num_envs: int, limits: Mapping[str, float]) -> NDArray[np
     return start
 
 
-def _present(value: Any, num_envs: int, magnets: int) -> NDArray[np.bool_]:
+def _present(value: Any, num_envs: int, magnets: int) -> NDArray[np.float64]:
     rows = _removed_rows(value, num_envs)
-    present = np.ones((num_envs, magnets), np.bool_)
+    present = np.ones((num_envs, magnets))
     for row, removed in zip(present, rows, strict=True):
         for magnet in removed:
             # bool is an int to Python, but a list of flags is not a list of magnets.
@@ -151,7 +188,7 @@ def _present(value: Any, num_envs: int, magnets: int) -> NDArray[np.bool_]:
                 raise ValueError(
                     f'options["removed"] has the magnet {shown(magnet)}; allowed: 0 to {magnets - 1}'
                 )
-            row[index] = False
+            row[index] = 0.0
     return present
 
 
@@ -167,40 +204,10 @@ def _removed_rows(value: Any, num_envs: int) -> list[Sequence[Any]]:
     return list(value) if any(nested) else [value] * num_envs
 
 
-def _factors(value: Any, num_envs: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-    fields = _mapping('options["parameters"]', value, names)
-    return {
-        name: _numbers(f'options["parameters"]["{name}"]', factor, num_envs)
-        for name, factor in fields.items()
-    }
-
-
-def _of_scenes(batch: Batch) -> NDArray[np.bool_]:
-    """The magnets that the scene of each environment has (N, M)."""
-    present = np.ones((len(batch.scenes), batch.scene.magnets), np.bool_)
-    for row, scene in zip(present, batch.scenes, strict=True):
-        row[list(scene.removed)] = False
-    return present[batch.scene_indices]
-
-
-@contextmanager
-def equipped(batch: Batch, request: ResetOptions) -> Iterator[None]:
-    """Gives the environments of a reset their robots; takes them back where the block is stopped or raises.
-
-    Raises:
-        ValueError: A robot that cannot be simulated.
-    """
-    mask = request.mask
-    before = {name: batch.parameter(name) for name in batch.parameter_names}
-    present_before = batch.magnets_present()
-    wanted = _of_scenes(batch) if request.present is None else request.present
-    try:
-        for name, factors in before.items():
-            batch.set_parameter(name, np.where(mask, request.factors.get(name, 1.0), factors))
-        batch.set_magnets_present(np.where(mask[:, None], wanted, present_before))
-        yield
-    except BaseException:
-        for name, factors in before.items():
-            batch.set_parameter(name, factors)
-        batch.set_magnets_present(present_before)
-        raise
+def _factors(value: Any, num_envs: int, names: Sequence[str]) -> NDArray[np.float64]:
+    given = _mapping('options["parameters"]', value, names)
+    factors = np.full((num_envs, len(names)), np.nan)
+    for column, name in enumerate(names):
+        if name in given:
+            factors[:, column] = _numbers(f'options["parameters"]["{name}"]', given[name], num_envs)
+    return factors

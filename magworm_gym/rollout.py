@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Trajectories
 from magworm_gym.arguments import numbers, shown
-from magworm_gym.episodes import Episodes
 from magworm_gym.outcome import outcome_of
-from magworm_gym.tasks import Task
+from magworm_gym.worlds import Worlds
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -54,47 +53,6 @@ class Rollout:
 
 
 @dataclass(frozen=True)
-class Origin:
-    """The environments that plans start from.
-
-    Attributes:
-        batch: Their simulation.
-        task: What is asked of them.
-        episodes: What their episodes are at.
-    """
-
-    batch: Batch
-    task: Task
-    episodes: Episodes
-
-    def environments(self, start: int | Sequence[int] | NDArray[Any] | None, plans: int) -> NDArray[np.int64]:
-        """The environment that each plan starts from (K,).
-
-        Raises:
-            ValueError: `start` does not fit.
-            ResetNeeded: One of them was never reset.
-        """
-        count = self.batch.num_envs
-        if start is None:
-            if plans != count:
-                raise ValueError(
-                    f"actions have {plans} plans for {count} environments; start must name where they begin"
-                )
-            start = range(count)
-        try:
-            chosen = np.asarray(start)
-        except (ValueError, RecursionError):  # ragged, or a list that holds itself
-            chosen = np.empty(())
-        if chosen.dtype.kind not in "iu" or chosen.shape not in ((), (plans,)):
-            raise ValueError(f"start is {shown(start)}; it must be one index, or one for each plan ({plans})")
-        if ((chosen < 0) | (chosen >= count)).any():
-            raise ValueError(f"start is {shown(start)}; allowed: indices from 0 to {count - 1}")
-        if (self.episodes.numbers[chosen] < 0).any():
-            raise ResetNeeded("an environment to start from was never reset: call reset() before rollout()")
-        return np.broadcast_to(chosen, plans).astype(np.int64)
-
-
-@dataclass(frozen=True)
 class Instant:
     """What a task sees after one control step of a rollout."""
 
@@ -122,26 +80,25 @@ class Instant:
 
 
 def roll_out(
-    origin: Origin,
-    max_episode_steps: int,
+    worlds: Worlds,
     actions: ArrayLike,
     start: int | Sequence[int] | NDArray[Any] | None,
     observations: bool,
 ) -> Rollout:
-    """See :meth:`magworm_gym.MagWormVectorEnv.rollout`."""
+    """What :meth:`magworm_gym.MagWormVectorEnv.rollout` gives, of these environments."""
     values = numbers(actions)
-    size = sum(part.size for part in origin.batch.action_specification)
+    size = sum(part.size for part in worlds.batch.action_specification)
     if values is None:
         raise ValueError(f"actions are {shown(actions)}; they must be numbers of shape (T, K, {size})")
     shape = values.shape
     if len(shape) != 3 or 0 in shape[:2] or shape[2] != size:
         raise ValueError(f"actions have shape {shape}; expected (T, K, {size}), T and K 1 or more")
-    environments = origin.environments(start, shape[1])
-    batch = origin.batch.copies(environments.tolist())
-    task = origin.task.copies(environments)
+    environments = _begun(worlds, start, shape[1])
+    batch = worlds.batch.copies(environments.tolist())
+    task = worlds.task.copies(environments)
     seen = batch.rollout(values, observations=observations, magnet_poses=task.uses_magnet_poses)
-    going = ~origin.episodes.ended[environments]
-    left = max_episode_steps - origin.episodes.elapsed_steps[environments]
+    going = ~worlds.episodes.ended[environments]
+    left = worlds.max_episode_steps - worlds.episodes.elapsed_steps[environments]
     rewards = np.zeros(shape[:2])
     terminated, truncated = np.zeros((2, *shape[:2]), np.bool_)
     appended = []
@@ -158,6 +115,33 @@ def roll_out(
     return Rollout(
         rewards, terminated, truncated, seen.progress_m, seen.status, seen.robot_poses, observed, batch
     )
+
+
+def _begun(worlds: Worlds, start: int | Sequence[int] | NDArray[Any] | None, plans: int) -> NDArray[np.int64]:
+    """The environment that each plan starts from (K,).
+
+    Raises:
+        ValueError: `start` does not fit.
+        ResetNeeded: One of them was never reset.
+    """
+    count = worlds.batch.num_envs
+    if start is None:
+        if plans != count:
+            raise ValueError(
+                f"actions have {plans} plans for {count} environments; start must name where they begin"
+            )
+        start = range(count)
+    try:
+        chosen = np.asarray(start)
+    except (ValueError, RecursionError):  # ragged, or a list that holds itself
+        chosen = np.empty(())
+    if chosen.dtype.kind not in "iu" or chosen.shape not in ((), (plans,)):
+        raise ValueError(f"start is {shown(start)}; it must be one index, or one for each plan ({plans})")
+    if ((chosen < 0) | (chosen >= count)).any():
+        raise ValueError(f"start is {shown(start)}; allowed: indices from 0 to {count - 1}")
+    if (worlds.episodes.numbers[chosen] < 0).any():
+        raise ResetNeeded("an environment to start from was never reset: call reset() before rollout()")
+    return np.broadcast_to(chosen, plans).astype(np.int64)
 
 
 def _instants(seen: Trajectories, present: Flags) -> list[Instant]:

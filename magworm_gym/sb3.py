@@ -6,7 +6,9 @@ Needs the extra ``magworm-gym[train]``; ``import magworm_gym`` does not import t
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+import warnings
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 import gymnasium
@@ -19,15 +21,21 @@ from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
 from magworm_gym import snapshot
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.infos import Infos, info_of
+from magworm_gym.randomise import AnyRandomise
+from magworm_gym.reset_options import MASK, AnyOptions
 from magworm_gym.scene import AnyScenes
-from magworm_gym.vector_env import MagWormVectorEnv, Observations
+from magworm_gym.vector_env import Lanes, MagWormVectorEnv, RenderMode
+from magworm_gym.worlds import Observations
+
+OF_ALL = ("close", "set_state", "step")
+"""Methods of the batch that change all environments."""
 
 
-class MagWormVecEnv(VecEnv):
+class MagWormSB3VecEnv(VecEnv):
     """N worms for the algorithms of Stable-Baselines3.
 
     >>> from stable_baselines3 import PPO
-    >>> model = PPO("MlpPolicy", MagWormVecEnv(256), n_steps=32, batch_size=2048)
+    >>> model = PPO("MlpPolicy", MagWormSB3VecEnv(256), n_steps=32, batch_size=2048)
 
     It behaves as ``DummyVecEnv`` of monitored single environments does, with one difference that
     makes it quick: the info of an environment whose episode goes on is an empty dictionary. Where
@@ -35,8 +43,8 @@ class MagWormVecEnv(VecEnv):
     (``r`` return, ``l`` length in control steps, ``t`` seconds since construction) and what
     :class:`~magworm_gym.vector_env.MagWormVectorEnv` says about its last step (``broken``, …).
 
-    The environments live in one batch: attributes and methods are those of the whole batch
-    (:attr:`worms`), whatever the index.
+    The environments live in one batch: attributes and methods are those of the whole batch (:attr:`worms`),
+    whatever the index. ``env_method("reset", indices=…)`` alone is of the environments that it names.
 
     Args:
         num_envs: Number of environments N.
@@ -48,6 +56,7 @@ class MagWormVecEnv(VecEnv):
         lanes: "wide" or "scalar"; equal bit for bit.
         threads: Most threads to use; None for all cores.
         task: "crawl", "turn" or "reach".
+        randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -59,11 +68,12 @@ class MagWormVecEnv(VecEnv):
         num_envs: int = 1,
         scene: AnyScenes | None = None,
         max_episode_steps: int | None = None,
-        render_mode: str | None = None,
+        render_mode: RenderMode | None = None,
         render_envs: Sequence[int] = (0,),
-        lanes: str = "wide",
+        lanes: Lanes = "wide",
         threads: int | None = None,
         task: str = "crawl",
+        randomise: AnyRandomise | None = None,
     ) -> None:
         self.worms = MagWormVectorEnv(
             num_envs=num_envs,
@@ -75,6 +85,7 @@ class MagWormVecEnv(VecEnv):
             lanes=lanes,
             threads=threads,
             task=task,
+            randomise=randomise,
         )
         super().__init__(num_envs, self.worms.single_observation_space, self.worms.single_action_space)
         self.metadata = self.worms.metadata
@@ -84,17 +95,15 @@ class MagWormVecEnv(VecEnv):
         self._built_s = time.monotonic()
 
     def reset(self) -> Observations:
-        """Starts new episodes with the seeds and options given before. Returns observations (N, O)."""
+        """Starts new episodes with the seeds and options given before. Returns observations (N, O).
+
+        Raises:
+            ValueError: A seed or an option is not allowed; nothing is changed then.
+        """
         shared = self._options[0]
-        with Bookkeeping() as books:
-            if all(options is shared or not (options or shared) for options in self._options):
-                observations, infos = self.worms.reset(seed=self._seeds, options=shared)
-                self.reset_infos = [info_of(infos, i) for i in range(self.num_envs)]
-            else:
-                books.begin()  # it is reset by several calls: all of them, or none
-                observations = self._reset_one_by_one()
-            self._returns[:] = 0.0
-            self._lengths[:] = 0
+        same = all(options is shared or not (options or shared) for options in self._options)
+        with Bookkeeping():
+            observations = self._reset(self._seeds, shared if same else self._options)
             self._reset_seeds()
             self._reset_options()
         return observations
@@ -123,16 +132,19 @@ class MagWormVecEnv(VecEnv):
     ) -> tuple[Observations, NDArray[np.float32], NDArray[np.bool_], list[Infos]]:
         """What a step of the batch is to the statistics of episodes."""
         dones = terminated | truncated
-        self._returns += rewards
-        self._lengths += 1
+        self._returns = self._returns + rewards
+        self._lengths = self._lengths + 1
         infos: list[Infos] = [{} for _ in range(self.num_envs)]
         for i in np.flatnonzero(dones).tolist():
             infos[i] = self._last_info(batch_infos, i, time_limit=bool(truncated[i] and not terminated[i]))
             first = info_of(batch_infos, i)
             self.reset_infos[i] = {key: first[key] for key in first if not key.startswith("final_")}
-        self._returns[dones] = 0.0
-        self._lengths[dones] = 0
+        self._forget(dones)
         return observations, rewards.astype(np.float32), dones, infos
+
+    def __copy__(self) -> MagWormSB3VecEnv:
+        """A copy of its own in every respect: two could not share one simulation."""
+        return deepcopy(self)
 
     def close(self) -> None:
         """Closes the window. May be called twice."""
@@ -150,16 +162,24 @@ class MagWormVecEnv(VecEnv):
 
     def set_attr(self, attr_name: str, value: Any, indices: VecEnvIndices = None) -> None:
         """Sets an attribute of the batch. Raises ValueError for some of the environments only."""
-        if len(set(self._get_indices(indices))) != self.num_envs:
-            raise ValueError(
-                f"{attr_name} belongs to the whole batch; indices must be None or all environments"
-            )
+        self._assert_all(attr_name, indices)
         setattr(self.worms, attr_name, value)
 
     def env_method(
         self, method_name: str, *method_args: Any, indices: VecEnvIndices = None, **method_kwargs: Any
     ) -> list[Any]:
-        """Calls a method of the batch, once, and returns its result once per index."""
+        """Calls a method of the batch, once, and returns its result once per index.
+
+        "reset" takes ``seed`` and ``options`` of a single environment, resets those of the indices alone, and
+        returns an observation (O,) and an info for each.
+
+        Raises:
+            ValueError: A method that changes all environments, for some of them only.
+        """
+        if method_name == "reset":
+            return self._reset_some(list(self._get_indices(indices)), *method_args, **method_kwargs)
+        if method_name in OF_ALL:
+            self._assert_all(method_name, indices)
         result = getattr(self.worms, method_name)(*method_args, **method_kwargs)
         return [result for _ in self._get_indices(indices)]
 
@@ -184,13 +204,32 @@ class MagWormVecEnv(VecEnv):
         worms = np.frombuffer(self.worms.get_state(), np.uint8)
         return {"worms": worms, "returns": self._returns, "lengths": self._lengths}
 
-    def _reset_one_by_one(self) -> Observations:
-        """Resets environments that were given options of their own."""
-        for i, options in enumerate(self._options):
-            mask = np.arange(self.num_envs) == i
-            observations, infos = self.worms.reset(seed=self._seeds, options={**options, "reset_mask": mask})
+    def _reset(self, seeds: Sequence[int | None], options: AnyOptions) -> Observations:
+        """Resets environments, and the statistics of those that the options chose."""
+        observations, infos = self.worms.reset(seed=seeds, options=options)
+        self._forget(infos["_seed"])
+        for i in np.flatnonzero(infos["_seed"]).tolist():
             self.reset_infos[i] = info_of(infos, i)
         return observations
+
+    def _reset_some(
+        self, chosen: list[int], *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> list[tuple[Any, Infos]]:
+        """As the environments of these indices would reset, each with the same seed and options."""
+        mask = np.isin(np.arange(self.num_envs), chosen)
+        seeds = [seed if of_mask else None for of_mask in mask]
+        with Bookkeeping():
+            observations = self._reset(seeds, {**(options or {}), MASK: mask})
+        return [(observations[i], self.reset_infos[i]) for i in chosen]
+
+    def _forget(self, mask: NDArray[np.bool_]) -> None:
+        """Statistics of the episodes of mask (N,) begin again."""
+        self._returns = np.where(mask, 0.0, self._returns)
+        self._lengths = np.where(mask, 0, self._lengths)
+
+    def _assert_all(self, name: str, indices: VecEnvIndices) -> None:
+        if len(set(self._get_indices(indices))) != self.num_envs:
+            raise ValueError(f"{name} belongs to the whole batch; indices must be None or all environments")
 
     def _last_info(self, batch_infos: Infos, i: int, *, time_limit: bool) -> Infos:
         return {
@@ -203,3 +242,11 @@ class MagWormVecEnv(VecEnv):
                 "t": round(time.monotonic() - self._built_s, 6),
             },
         }
+
+
+def __getattr__(name: str) -> Any:
+    """The name that the adapter had before."""
+    if name == "MagWormVecEnv":
+        warnings.warn("MagWormVecEnv is now called MagWormSB3VecEnv", DeprecationWarning, stacklevel=2)
+        return MagWormSB3VecEnv
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -30,8 +30,7 @@ def box(specifications: Iterable[AnyPart]) -> Box:
     """The space of one row, with components in the order of `specifications`, as float32.
 
     Bounds that float32 cannot hold are rounded outwards: a value that keeps to the bound in
-    double precision keeps to it in single precision too. A bound that is left open becomes the
-    largest finite number: the simulator lets nothing else out.
+    double precision keeps to it in single precision too. A bound that is left open is infinite.
     """
     specifications = tuple(specifications)
     low = np.concatenate([np.full(part.size, part.low) for part in specifications])
@@ -49,9 +48,8 @@ def layout(specifications: Iterable[AnyPart]) -> dict[str, slice]:
 
 
 def _rounded(bounds: NDArray[np.float64], *, towards: float) -> NDArray[np.float32]:
-    largest = np.finfo(np.float32).max
-    bounds = np.clip(bounds, -largest, largest)
-    single = bounds.astype(np.float32)
+    with np.errstate(over="ignore"):  # beyond the largest number lies infinity
+        single = bounds.astype(np.float32)
     inside = single > bounds if towards < 0 else single < bounds
     single[inside] = np.nextafter(single[inside], np.float32(towards))
     return single

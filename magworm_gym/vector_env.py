@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from copy import deepcopy
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from gymnasium import logger
@@ -15,22 +16,25 @@ from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
 from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.drawing import Drawing, Frame
-from magworm_gym.draws import next_episodes, uniform
 from magworm_gym.episodes import Episodes
-from magworm_gym.infos import Flags, Infos, add, rows
-from magworm_gym.outcome import outcome_of, step_infos
-from magworm_gym.reset_options import equipped, read_options, start_limits
-from magworm_gym.rollout import Origin, Rollout, roll_out
+from magworm_gym.infos import Flags, Infos
+from magworm_gym.randomise import AnyRandomise, load_randomise
+from magworm_gym.reset_options import Allowed, AnyOptions
+from magworm_gym.robots import Robots
+from magworm_gym.rollout import Rollout, roll_out
 from magworm_gym.scene import AnyScenes, load_scenes
 from magworm_gym.spaces import AnyPart, box, layout
-from magworm_gym.state import State
+from magworm_gym.state import pack, restore
 from magworm_gym.tasks import Task, task_named
-
-Observations = NDArray[np.float32]
+from magworm_gym.worlds import Observations, Worlds
 
 RENDER_MODES = ("human", "rgb_array")
-DRAWN = ("_episodes", "_np_random", "_np_random_seed")
-"""Attributes that a reset changes before the simulator is asked."""
+RenderMode: TypeAlias = Literal["human", "rgb_array"]
+AnyAutoreset: TypeAlias = AutoresetMode | Literal["NextStep", "SameStep", "Disabled"]
+Lanes: TypeAlias = Literal["wide", "scalar"]
+
+RANDOM = ("_np_random", "_np_random_seed")
+"""Attributes behind ``np_random``, which a reset changes before the simulator is asked."""
 
 
 class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
@@ -50,8 +54,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     **Info** of a step: ``progress_m``, ``time_s`` since the start of the episode, what the task adds, and
     where an episode ends ``time_limit`` (bool: it ended by the limit), ``is_success`` (bool: only for tasks
     with a goal) and ``broken`` (the reason, only for broken worms). Of a reset: ``time_s``, ``seed``,
-    ``episode_number``, and the task's goal. As usual in Gymnasium, each
-    is an array of length N beside a mask ``_key``.
+    ``episode_number``, and the task's goal. As usual in Gymnasium, each is an array of length N beside a
+    mask ``_key``; every step has the same keys, whose masks are False where there is nothing to say.
 
     **Seeds**: what a reset draws depends on the seed of the environment and the number of its
     episode alone, not on N, the order of environments or threads. A reset with a seed starts at
@@ -68,6 +72,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     - ``"goal_deg"`` or ``"goal_m"``: see the task; where it is left out, each episode draws a goal.
     - ``"reset_mask"``: bool array (N,), the environments to reset.
 
+    In place of one mapping a list of N mappings may be given, one for each environment, without masks.
+
     Args:
         num_envs: Number of environments N.
         scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the
@@ -81,6 +87,8 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         lanes: "wide" for SIMD, or "scalar"; the results are equal bit for bit.
         threads: Most threads to use; None for all cores.
         task: "crawl", "turn" or "reach".
+        randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
+            None: all robots are the scene's.
 
     Raises:
         SceneError: The scene cannot be simulated.
@@ -97,12 +105,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         num_envs: int = 1,
         scene: AnyScenes | None = None,
         max_episode_steps: int | None = None,
-        render_mode: str | None = None,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        render_mode: RenderMode | None = None,
+        autoreset_mode: AnyAutoreset = AutoresetMode.NEXT_STEP,
         render_envs: Sequence[int] = (0,),
-        lanes: str = "wide",
+        lanes: Lanes = "wide",
         threads: int | None = None,
         task: str = "crawl",
+        randomise: AnyRandomise | None = None,
     ) -> None:
         kind = task_named(task)
         scenes = load_scenes(kind.default_scene if scene is None else scene)
@@ -113,59 +122,61 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
                 )
         self.num_envs = positive("num_envs", num_envs)
         self.render_mode = choice("render_mode", render_mode, (None, *RENDER_MODES))
-        self._autoreset = AutoresetMode(autoreset_mode)
         self._render_envs = indices("render_envs", render_envs, self.num_envs)
-        self._batch = Batch(scenes, self.num_envs, lanes=lanes, threads=threads)
-        first = self._batch.scene
+        autoreset, drawn = AutoresetMode(autoreset_mode), load_randomise(randomise)
+        batch = Batch(scenes, self.num_envs, lanes=lanes, threads=threads)
+        first = batch.scene
+        of_scene = round(first.episode_s / first.control_step_s)
+        limit = positive("max_episode_steps", of_scene if max_episode_steps is None else max_episode_steps)
+        asked = kind(first, batch.observation_specification, self.num_envs)
+        self._allowed = Allowed.of(batch, asked)
+        episodes = Episodes.before_the_first(self.num_envs, self._allowed.sizes)
+        self._worlds = Worlds(batch, asked, Robots(batch, drawn), episodes, autoreset, limit)
         self.metadata = {
             "render_modes": list(RENDER_MODES),
-            "render_fps": round(1.0 / first.control_step_s),
-            "autoreset_mode": self._autoreset,
+            "render_fps": max(1, round(1.0 / first.control_step_s)),
+            "autoreset_mode": autoreset,
         }
-        of_scene = round(first.episode_s / first.control_step_s)
-        limit = of_scene if max_episode_steps is None else max_episode_steps
-        self._max_episode_steps = positive("max_episode_steps", limit)
-
-        observed = self._batch.observation_specification
-        self._task = kind(first, observed, self.num_envs)
         self.single_observation_space = box(self.observation_specification)
-        self.single_action_space = box(self._batch.action_specification)
+        self.single_action_space = box(batch.action_specification)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._action_shape = (self.num_envs, sum(part.size for part in self._batch.action_specification))
-
-        columns, goal = len(start_limits(first.dimensions)), self._task.goal_option
-        self._episodes = Episodes.before_the_first(self.num_envs, columns, 0 if goal is None else goal.size)
+        self._action_shape = (self.num_envs, sum(part.size for part in batch.action_specification))
 
     @property
     def batch(self) -> Batch:
         """The simulation itself, to read poses and times from. Change it through `reset` and `step` only."""
-        return self._batch
+        return self._worlds.batch
 
     @property
     def scene(self) -> Scene:
         """The scene of every environment; the first of several, whose shape all have."""
-        return self._batch.scene
+        return self.batch.scene
 
     @property
     def scenes(self) -> tuple[Scene, ...]:
         """The scenes; ``batch.scene_indices`` (N,) says which of them each environment has."""
-        return self._batch.scenes
+        return self.batch.scenes
 
     @property
     def max_episode_steps(self) -> int:
         """Control steps until an episode is truncated."""
-        return self._max_episode_steps
+        return self._worlds.max_episode_steps
 
     @property
     def task(self) -> Task:
         """What is asked of the worms."""
-        return self._task
+        return self._worlds.task
+
+    @property
+    def autoreset_mode(self) -> AutoresetMode:
+        """When an episode that ended is followed by the next."""
+        return self._worlds.autoreset
 
     @property
     def observation_specification(self) -> tuple[AnyPart, ...]:
         """Name, unit, size and bounds of each part of an observation: the simulator's, then the task's."""
-        return (*self._batch.observation_specification, *self._task.parts)
+        return (*self.batch.observation_specification, *self.task.parts)
 
     @property
     def observation_layout(self) -> dict[str, slice]:
@@ -176,7 +187,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         self,
         *,
         seed: int | Sequence[int | None] | None = None,
-        options: Mapping[str, Any] | None = None,
+        options: AnyOptions = None,
     ) -> tuple[Observations, Infos]:
         """Starts new episodes.
 
@@ -193,27 +204,13 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ValueError: A seed or an option is not allowed; nothing is changed then.
         """
         seeds = seeds_of(seed, self.num_envs)
-        scene = self.scene
-        request = read_options(
-            options,
-            num_envs=self.num_envs,
-            magnets=scene.magnets,
-            parameter_names=self._batch.parameter_names,
-            dimensions=scene.dimensions,
-            goal_option=self._task.goal_option,
-        )
-        with Bookkeeping() as books, put_back(self, DRAWN), equipped(self._batch, request):
+        request = self._allowed.read(options, self.num_envs)
+        with Bookkeeping() as books, put_back(self, RANDOM):
             if isinstance(seed, (int, np.integer)):
                 super().reset(seed=int(seed))
-            mask, of = request.mask, self._episodes
-            of.starts[mask] = np.nan if request.start is None else request.start[mask]
-            of.goals[mask] = np.nan if request.goal is None else request.goal[mask]
-            numbers = next_episodes(of.seeds, of.numbers, seeds, mask, self.np_random)
-            self._start_episodes(mask, numbers, books)
-            infos: Infos = {}
-            self._add_reset_infos(infos, mask)
-        self._show()
-        return self._observe(), infos
+            infos = self._worlds.reset(request, seeds, self.np_random, books)
+        self._show(infos)
+        return self._worlds.observe(), infos
 
     def step(self, actions: ArrayLike) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
         """Advances every environment by one control step.
@@ -231,12 +228,9 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ResetNeeded: An environment was never reset, or with ``DISABLED`` not since its episode ended.
         """
         values = action_rows(actions, self._action_shape)
-        resetting = self._episodes.due_to_reset(self._autoreset)
         with Bookkeeping() as books:
-            simulated = self._advance(values, resetting)
-            books.begin()
-            stepped = self._account(resetting, *simulated)
-        self._show()
+            stepped = self._worlds.step(values, books)
+        self._show(stepped[-1])
         return stepped
 
     def rollout(
@@ -260,8 +254,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             ValueError: Actions or starts of a wrong shape or value.
             ResetNeeded: An environment to start from was never reset.
         """
-        origin = Origin(self._batch, self._task, self._episodes)
-        return roll_out(origin, self._max_episode_steps, actions, start, observations)
+        return roll_out(self._worlds, actions, start, observations)
 
     def render(self) -> tuple[Frame, ...] | None:
         """Draws the environments `render_envs`.
@@ -280,7 +273,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
 
     def get_state(self) -> bytes:
         """Everything that changes in time, for :meth:`set_state`: the continuation is equal bit for bit."""
-        return self._state().pack()
+        return pack(self._worlds, self.np_random)
 
     def set_state(self, state: bytes) -> None:
         """Goes on from a state of an environment with the same scene, N and autoreset mode.
@@ -288,7 +281,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         Raises:
             ValueError: The bytes are no such state; nothing is changed then.
         """
-        self._state().restore(state)
+        restore(self._worlds, self.np_random, state)
         if self._drawing is not None:
             self._drawing.forget(np.ones(self.num_envs, np.bool_))
 
@@ -298,84 +291,23 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
             self._drawing.close()
             self._drawing = None
 
+    def __copy__(self) -> MagWormVectorEnv:
+        """A copy of its own in every respect: two could not share one simulation."""
+        return deepcopy(self)
+
     def __getstate__(self) -> dict[str, Any]:
         """A copy goes on bit for bit, and opens a window of its own."""
         _ = self.np_random  # made on first use: from now on both have the same
         return {**self.__dict__, "_drawing": None}
 
-    def _state(self) -> State:
-        return State(self._batch, self._episodes, self._task, self.np_random, self._autoreset)
-
-    def _start_episodes(
-        self, mask: Flags, numbers: NDArray[np.int64], books: Bookkeeping | None = None
-    ) -> None:
-        """Resets the simulation of the environments of mask, to their episodes (N,)."""
-        of = self._episodes
-        numbers = np.where(mask, numbers, of.numbers)
-        drawn = np.maximum(numbers, 0)
-        self._batch.reset(mask, of.seeds, drawn, start=of.starts)
-        if books is not None:
-            books.begin()
-        of.begin(mask, numbers)
-        self._task.begin(self._batch, mask, of.goals, uniform(of.seeds, drawn, self._task.draws))
-        if self._drawing is not None:
-            self._drawing.forget(mask)
-
-    def _advance(
-        self, actions: NDArray[np.float64], resetting: Flags
-    ) -> tuple[Observations, NDArray[np.float64], NDArray[np.uint8]]:
-        if resetting.all():
-            return self._batch.observe(), np.zeros(self.num_envs), self._batch.status()
-        # The simulator advances all: what it makes of the others is dropped by their reset.
-        return self._batch.step(np.where(resetting[:, None], 0.0, actions) if resetting.any() else actions)
-
-    def _account(
-        self,
-        resetting: Flags,
-        simulated: Observations,
-        progress_m: NDArray[np.float64],
-        status: NDArray[np.uint8],
-    ) -> tuple[Observations, NDArray[np.float64], Flags, Flags, Infos]:
-        """What a step of the simulator, whose arrays are given, is to the task and the episodes."""
-        stepping = ~resetting
-        of = self._episodes
-        of.elapsed_steps += stepping
-        result = self._task.evaluate(self._batch, progress_m, stepping)
-        observations = self._observe(simulated)
-        outcome = outcome_of(result, status, stepping, of.elapsed_steps >= self._max_episode_steps)
-        ended, seen = outcome.ended, {"progress_m": progress_m, "time_s": self._batch.time_s()}
-        same_step = self._autoreset is AutoresetMode.SAME_STEP
-        starting = ended if same_step else resetting
-        infos = step_infos(outcome, seen, stepping & ~starting)
-        if starting.any():
-            if same_step:
-                add(infos, "final_obs", rows(observations), starting)
-                infos |= {"final_info": step_infos(outcome, seen, starting), "_final_info": starting.copy()}
-            self._start_episodes(starting, of.numbers + 1)
-            observations = self._observe()
-            self._add_reset_infos(infos, starting)
-        of.ended = np.zeros_like(ended) if same_step else ended
-        return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
-
-    def _observe(self, simulated: Observations | None = None) -> Observations:
-        """What the simulator observes, or has, with what the task appends to it."""
-        simulated = self._batch.observe() if simulated is None else simulated
-        if not self._task.parts:
-            return simulated
-        return np.concatenate([simulated, self._task.observe(self._batch).astype(np.float32)], axis=1)
-
-    def _add_reset_infos(self, infos: Infos, mask: Flags) -> None:
-        add(infos, "time_s", self._batch.time_s(), mask)
-        add(infos, "seed", self._episodes.seeds, mask)
-        add(infos, "episode_number", self._episodes.numbers, mask)
-        for key, told in self._task.reset_infos().items():
-            add(infos, key, told, mask)
-
     def _drawn(self) -> Drawing:
         if self._drawing is None:
-            self._drawing = Drawing(self._batch, self._render_envs, self._task)
+            self._drawing = Drawing(self.batch, self._render_envs, self.task)
         return self._drawing
 
-    def _show(self) -> None:
+    def _show(self, infos: Infos) -> None:
+        """Follows a call in the window; episodes that it started have new trails."""
+        if self._drawing is not None and "_seed" in infos:
+            self._drawing.forget(infos["_seed"])
         if self.render_mode == "human":
             self._drawn().show()

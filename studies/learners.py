@@ -20,7 +20,7 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 from magworm_gym import load_scene
 from magworm_gym.learning.compare.goal_trials import FIRST_SEED, fly
 from magworm_gym.learning.settings import SCENES
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 TASK, SCENE = "turn", SCENES / "turn-3-pair.toml"
 GOALS_DEG = np.array([30.0, -30.0, 90.0, -90.0])
@@ -77,7 +77,7 @@ class Clock(BaseCallback):
         return elapsed < self._seconds
 
 
-class Rewarded(MagWormVecEnv):
+class Rewarded(MagWormSB3VecEnv):
     """Keeps the rewards of the last step, whatever wraps it."""
 
     def step_wait(self) -> Any:

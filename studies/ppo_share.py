@@ -22,7 +22,7 @@ from stable_baselines3.common.utils import set_random_seed
 from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 from magworm_gym import Batch, Scene
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -36,7 +36,7 @@ AIM = 0.1
 """Largest share that is wanted."""
 
 
-class Timed(MagWormVecEnv):
+class Timed(MagWormSB3VecEnv):
     """Adds up the wall time of its steps."""
 
     seconds = 0.0
@@ -157,7 +157,7 @@ def _around(case: Case) -> float:
     """Median time of a step in which no episode ends, less that of the simulator [s]."""
     environments = Timed(ENVIRONMENTS, case.simulated, task=case.task)
     environments.reset()
-    environments.worms._batch = Replayed(environments.worms.batch)  # type: ignore[assignment]
+    environments.worms._worlds.batch = Replayed(environments.worms.batch)  # type: ignore[assignment]
     actions = np.zeros_like(environments.worms.action_space.sample())
     times = []
     for _ in range(environments.worms.max_episode_steps - 1):

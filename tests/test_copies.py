@@ -10,6 +10,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
+from vector_infos import told
 
 from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv
 
@@ -153,6 +154,7 @@ def test_processes_of_single_environments(context: str) -> None:
     try:
         assert data_equivalence(native.reset(seed=0), processes.reset(seed=0), exact=True)
         for actions in np.random.default_rng(0).uniform(-1, 1, (5, 2, 3)).astype(np.float32):
-            assert data_equivalence(native.step(actions), processes.step(actions), exact=True)
+            *stepped, infos = native.step(actions)
+            assert data_equivalence((*stepped, told(infos)), processes.step(actions), exact=True)
     finally:
         processes.close()

@@ -14,6 +14,9 @@ from gymnasium.utils.env_checker import check_env
 import magworm_gym
 from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv
 
+# The checker warns of every component without bounds, as it does for CartPole-v1.
+UNBOUNDED = pytest.mark.filterwarnings("ignore:.*infinity:UserWarning")
+
 
 @pytest.fixture
 def windowless(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -23,10 +26,12 @@ def windowless(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
 
 
+@UNBOUNDED
 def test_gymnasium_s_checker_passes() -> None:
     check_env(gymnasium.make(CRAWL_ID).unwrapped, skip_render_check=True)
 
 
+@UNBOUNDED
 @pytest.mark.usefixtures("windowless")
 @pytest.mark.parametrize("render_mode", ["rgb_array", "human"])
 def test_gymnasium_s_checker_passes_with_frames(render_mode: str) -> None:

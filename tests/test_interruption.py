@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from magworm_gym import Batch, MagWormEnv, MagWormVectorEnv, Scene, magnet, record_scenes
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 PATIENCE_S = 2.0
 """A call that was stopped has ended by then."""
@@ -181,12 +181,12 @@ def test_a_reset_of_environments_is_done_or_not() -> None:
         assert env.get_state() == after
 
 
-@pytest.mark.parametrize("make", [MagWormEnv, lambda **kw: MagWormVecEnv(2, **kw)], ids=["one", "sb3"])
+@pytest.mark.parametrize("make", [MagWormEnv, lambda **kw: MagWormSB3VecEnv(2, **kw)], ids=["one", "sb3"])
 def test_a_long_step_of_other_environments(make: Any) -> None:
     env = make(scene=Scene.preset("paper-3").with_values(LONG), threads=1)
     env.reset()
     before = env.get_state()
-    shape = (2, 3) if isinstance(env, MagWormVecEnv) else (3,)
+    shape = (2, 3) if isinstance(env, MagWormSB3VecEnv) else (3,)
     assert interrupted_after_s(lambda: env.step(np.zeros(shape))) < PATIENCE_S
     assert env.get_state() == before
 

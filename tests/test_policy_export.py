@@ -18,7 +18,7 @@ from magworm_gym import Policy, PolicyError, load_policy, save_policy  # noqa: E
 from magworm_gym.cli import main  # noqa: E402
 from magworm_gym.learning.actor import network_of, normaliser_of  # noqa: E402
 from magworm_gym.learning.export import _Spaces, export_onnx, export_sb3  # noqa: E402
-from magworm_gym.sb3 import MagWormVecEnv  # noqa: E402
+from magworm_gym.sb3 import MagWormSB3VecEnv  # noqa: E402
 
 TOLERANCE = 1e-5
 TANH = {"net_arch": [32, 32], "activation_fn": torch.nn.Tanh}
@@ -37,7 +37,7 @@ KINDS: dict[str, tuple[Any, dict[str, Any]]] = {
 def trained(name: str, normalise: bool) -> tuple[Any, VecNormalize | None, Policy]:
     """A model with random weights, its statistics and the policy made of both."""
     kind, options = KINDS[name]
-    robots = MagWormVecEnv(4)
+    robots = MagWormSB3VecEnv(4)
     normalisation = VecNormalize(robots) if normalise else None
     if normalisation is not None:
         normalisation.reset()
@@ -115,14 +115,16 @@ def test_stable_baselines3_loads_a_policy_that_acts_the_same(name: str, tmp_path
 def test_an_actor_that_is_no_perceptron_of_tanh_or_relu_is_refused() -> None:
     for name, activation in (("PPO", torch.nn.ELU), ("SAC", torch.nn.LeakyReLU)):
         kind, _ = KINDS[name]
-        model = kind("MlpPolicy", MagWormVecEnv(1), policy_kwargs={"activation_fn": activation}, device="cpu")
+        model = kind(
+            "MlpPolicy", MagWormSB3VecEnv(1), policy_kwargs={"activation_fn": activation}, device="cpu"
+        )
         with pytest.raises(PolicyError, match="allowed: linear layers with tanh or relu"):
             network_of(model)
 
 
 def test_normalised_environments_are_refused() -> None:
     _, normalisation, policy = trained("PPO", True)
-    policy.check_fit(MagWormVecEnv(1))
+    policy.check_fit(MagWormSB3VecEnv(1))
     with pytest.raises(PolicyError, match="a wrapper"):
         policy.check_fit(normalisation)
 

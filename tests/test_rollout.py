@@ -53,7 +53,9 @@ def test_a_rollout_equals_stepping_bit_for_bit(task: str, layout: tuple[str, int
         np.testing.assert_array_equal(rollout.progress_m[t, going], infos["progress_m"][going])
         np.testing.assert_array_equal(rollout.robot_poses[t, going], env.batch.robot_poses()[going])
         over |= terminated | truncated
-        env._episodes.ended[:] = False  # those that are over go on beside the others, and are not looked at
+        env._worlds.episodes.ended[:] = (
+            False  # those that are over go on beside the others, and are not looked at
+        )
     assert over.all(), "the time limit ends all"
     assert rollout.status[-1].any() and not rollout.status[-1].all(), "some break, others do not"
     assert not (rollout.rewards[limit - 2 :].any() or rollout.truncated[limit - 2 :].any())

@@ -16,13 +16,13 @@ from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecNormalize
 
 from magworm_gym import MagWormEnv
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 torch.set_num_threads(1)
 
 
-def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormVecEnv:
-    return MagWormVecEnv(num_envs, **{"max_episode_steps": 5, "threads": 1, **kwargs})
+def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormSB3VecEnv:
+    return MagWormSB3VecEnv(num_envs, **{"max_episode_steps": 5, "threads": 1, **kwargs})
 
 
 def monitored(num_envs: int = 3) -> list[Any]:

@@ -8,9 +8,10 @@ import pytest
 from gymnasium.error import ResetNeeded
 
 from magworm_gym import MagWormEnv, MagWormVectorEnv, snapshot
+from magworm_gym.state import fields as state_fields
 
 pytest.importorskip("stable_baselines3")
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 DAMAGES = 1500
 ENVS = 2
@@ -28,8 +29,8 @@ def single() -> MagWormEnv:
     return MagWormEnv(max_episode_steps=50)
 
 
-def stable() -> MagWormVecEnv:
-    return MagWormVecEnv(ENVS, max_episode_steps=50, threads=1)
+def stable() -> MagWormSB3VecEnv:
+    return MagWormSB3VecEnv(ENVS, max_episode_steps=50, threads=1)
 
 
 def begun(make: Any) -> Any:
@@ -41,7 +42,7 @@ def begun(make: Any) -> Any:
 
 def act(env: Any) -> Any:
     """A step of an environment of any kind."""
-    many = (ENVS,) if isinstance(env, MagWormVecEnv) else ()
+    many = (ENVS,) if isinstance(env, MagWormSB3VecEnv) else ()
     return env.step(np.full((*many, *env.action_space.shape), 0.5))
 
 
@@ -98,7 +99,7 @@ def test_damaged_states_are_refused_or_run_on_finite(make: Any) -> None:
 
 def test_numbers_that_no_environment_has_are_named() -> None:
     env = begun(crawl)
-    fields = env._state().fields()
+    fields = state_fields(env._worlds, env.np_random)
     for name, value in [("numbers", -2), ("elapsed_steps", -1), ("starts", 1e9), ("seeds", -1)]:
         changed = {**fields, name: np.full_like(fields[name], value)}
         with pytest.raises(ValueError, match=rf"^{name} of environment 0 in the state is .*; allowed: "):

@@ -14,7 +14,7 @@ from gymnasium.utils.env_checker import check_env, data_equivalence
 from gymnasium.vector import AutoresetMode
 
 from magworm_gym import REACH_ID, TURN_ID, MagWormEnv, MagWormVectorEnv, Scene
-from magworm_gym.draws import uniform
+from magworm_gym.draws import TASK, uniform
 from magworm_gym.tasks import Reach, Task, Turn
 from magworm_gym.testing import check_vector_env
 
@@ -108,10 +108,10 @@ def test_goals_are_drawn_within_their_ranges() -> None:
 
 def test_draws_depend_on_seed_and_episode_alone() -> None:
     seeds, episodes = np.array([3, 4, 3, 2**62]), np.array([0, 0, 1, 7])
-    rows = uniform(seeds, episodes, 3)
+    rows = uniform(seeds, episodes, 3, TASK)
     assert len(np.unique(rows)) == rows.size and ((rows >= 0.0) & (rows < 1.0)).all()
-    np.testing.assert_array_equal(rows[2:3, :2], uniform(seeds[2:3], episodes[2:3], 2))
-    assert uniform(np.arange(4000), np.zeros(4000, int), 1).mean() == pytest.approx(0.5, abs=0.02)
+    np.testing.assert_array_equal(rows[2:3, :2], uniform(seeds[2:3], episodes[2:3], 2, TASK))
+    assert uniform(np.arange(4000), np.zeros(4000, int), 1, TASK).mean() == pytest.approx(0.5, abs=0.02)
 
 
 @pytest.mark.parametrize("task", TASKS)
@@ -175,6 +175,7 @@ def test_vector_environments_pass_strictly(name: str, mode: AutoresetMode) -> No
     assert {f.check for f in report.with_outcome("skipped")} == {"render returns one frame per environment"}
 
 
+@pytest.mark.filterwarnings("ignore:.*infinity:UserWarning")
 @pytest.mark.parametrize("name", [TURN_ID, REACH_ID])
 def test_single_environments_pass(name: str) -> None:
     check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
@@ -239,7 +240,7 @@ def test_a_broken_worm_has_no_success() -> None:
             status[1] = 1
             return observations, progress_m, status
 
-    env._batch = Breaking()  # type: ignore[assignment]
+    env._worlds.batch = Breaking()  # type: ignore[assignment]
     _, rewards, terminated, truncated, infos = env.step(np.zeros(env.action_space.shape))
     assert rewards[1] == 0.0 and truncated.tolist() == [False, True, False] and not terminated.any()
     assert infos["_is_success"].tolist() == [False, True, False] and not infos["is_success"].any()
@@ -250,10 +251,10 @@ def test_stable_baselines3_sees_the_task(task: str) -> None:
     pytest.importorskip("stable_baselines3")
     from stable_baselines3.common.env_checker import check_env as check_for_sb3
 
-    from magworm_gym.sb3 import MagWormVecEnv
+    from magworm_gym.sb3 import MagWormSB3VecEnv
 
     check_for_sb3(MagWormEnv(task=task))
-    worms = MagWormVecEnv(2, max_episode_steps=3, threads=1, task=task)
+    worms = MagWormSB3VecEnv(2, max_episode_steps=3, threads=1, task=task)
     worms.seed(0)
     worms.set_options(GOALS[task])
     worms.reset()

@@ -9,6 +9,7 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from vector_infos import told
 
 from magworm_gym import MagWormEnv, MagWormVectorEnv, Scene, SceneError
 from magworm_gym.spaces import box
@@ -51,7 +52,7 @@ class Breaking:
 
 
 def breaking(env: MagWormVectorEnv, environment: int, step: int) -> MagWormVectorEnv:
-    env._batch = Breaking(env._batch, environment, step)  # type: ignore[assignment]
+    env._worlds.batch = Breaking(env.batch, environment, step)  # type: ignore[assignment]
     return env
 
 
@@ -60,9 +61,11 @@ def test_spaces_follow_from_the_simulator() -> None:
     size = sum(part.size for part in env.batch.observation_specification)
     assert env.single_action_space == gymnasium.spaces.Box(-1, 1, (3,), np.float32)
     assert env.single_observation_space.shape == (size,)
-    assert np.isfinite([env.single_observation_space.low, env.single_observation_space.high]).all()
     parts = env.observation_layout
     assert parts["last_action"] == slice(size - 3, size)
+    unbounded = np.arange(size) < size - 3
+    assert (env.single_observation_space.low == np.where(unbounded, -np.inf, -1.0)).all()
+    assert (env.single_observation_space.high == np.where(unbounded, np.inf, 1.0)).all()
 
 
 def test_bounds_are_rounded_outwards() -> None:
@@ -72,8 +75,9 @@ def test_bounds_are_rounded_outwards() -> None:
         space.high.astype(np.float64) >= third.high
     ).all()
     np.testing.assert_allclose(space.high, third.high, rtol=1e-6)
-    assert np.full(1, np.finfo(np.float32).max) in open_space
-    assert np.full(1, np.inf, np.float32) not in open_space
+    assert not open_space.is_bounded("above") and not open_space.is_bounded("below")
+    beyond = box([SimpleNamespace(name="beyond", size=1, low=1e39, high=2e39)])
+    assert [beyond.low[0], beyond.high[0]] == [np.finfo(np.float32).max, np.inf]
 
 
 def test_previous_action_is_observed() -> None:
@@ -114,7 +118,7 @@ def test_time_limit_is_told_from_breaking() -> None:
     assert infos["_broken"].tolist() == infos["_time_limit"].tolist() == [False, True, False]
     assert isinstance(infos["broken"][1], str) and infos["broken"][0] is None
     assert not infos["time_limit"].any()
-    assert "broken" not in env.step(actions[2])[4]
+    assert not env.step(actions[2])[4]["_broken"].any()
     _, _, _, truncated, infos = env.step(actions[3])
     assert (
         truncated.tolist()
@@ -122,7 +126,7 @@ def test_time_limit_is_told_from_breaking() -> None:
         == infos["_time_limit"].tolist()
         == [True, False, True]
     )
-    assert "broken" not in infos
+    assert not infos["_broken"].any()
 
 
 def test_a_worm_that_is_torn_apart_truncates_alone() -> None:
@@ -161,7 +165,7 @@ def test_equals_sync_vector_env_of_single_ones(mode: AutoresetMode) -> None:
     assert_equal(native.reset(seed=11), sync.reset(seed=11))
     for step, rows in enumerate(random_actions(native, 18)):
         one, other = native.step(rows), sync.step(rows)
-        assert_equal(one, other)
+        assert_equal((*one[:4], told(one[4])), other)
         if step == 2:
             # From here on, episodes end at different times.
             assert_equal(native.reset(options={"reset_mask": mask}), sync.reset(options={"reset_mask": mask}))
@@ -170,6 +174,36 @@ def test_equals_sync_vector_env_of_single_ones(mode: AutoresetMode) -> None:
                 native.reset(options={"reset_mask": one[3]}), sync.reset(options={"reset_mask": other[3]})
             )
     assert sync.metadata["render_modes"] == native.metadata["render_modes"]
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("task", ["crawl", "reach"])
+def test_infos_have_the_same_keys_in_every_step(mode: AutoresetMode, task: str) -> None:
+    env = crawl(autoreset_mode=mode, max_episode_steps=2, task=task)
+    reset_keys = env.reset(seed=0)[1].keys() - {"time_s", "_time_s"}
+    steps = []
+    for rows in random_actions(env, 6):
+        *_, truncated, infos = env.step(rows)
+        if "final_info" in infos:
+            steps.append(set(infos["final_info"]))
+        steps.append({key for key in infos if key not in reset_keys and "final_" not in key})
+        if mode is AutoresetMode.DISABLED and truncated.any():
+            env.reset(options={"reset_mask": truncated})
+    assert all(keys == steps[0] for keys in steps)
+    assert {"progress_m", "time_s", "time_limit", "broken"} < steps[0]
+    assert ("is_success" in steps[0]) == (task == "reach")
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_the_autoreset_mode_is_an_attribute(mode: AutoresetMode) -> None:
+    env = crawl(autoreset_mode=mode)
+    assert env.autoreset_mode is mode is env.metadata["autoreset_mode"]
+
+
+def test_frames_follow_each_other_once_a_second_at_least() -> None:
+    slow = Scene.preset("paper-3").with_values({"control.step_s": 4.0, "control.episode_s": 400.0})
+    assert crawl(scene=slow).metadata["render_fps"] == 1
+    assert crawl().metadata["render_fps"] == 50
 
 
 def test_next_step_ignores_the_action_of_an_ended_episode() -> None:

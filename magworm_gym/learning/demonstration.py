@@ -13,7 +13,7 @@ from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.compare.goal_search import SearchSize, searched
 from magworm_gym.learning.compare.pilots import FAMILIES, Steered
 from magworm_gym.learning.settings import TrainingSettings
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 SEARCH = SearchSize(seeds=1, scouts=128, population=16, generations=10, starts=2, duration_s=5.0)
 """How the teacher is found: the search that the small budget gives a rival."""
@@ -29,7 +29,7 @@ LEAST_VARIANCE = 1e-4
 
 
 def teach(
-    settings: TrainingSettings, scene: Scene, trainee: Trainee, robots: MagWormVecEnv, seed: int
+    settings: TrainingSettings, scene: Scene, trainee: Trainee, robots: MagWormSB3VecEnv, seed: int
 ) -> int:
     """Searches a teacher, lets it act and fits policy, value and normalisation to what was seen.
 
@@ -73,7 +73,7 @@ def teach(
 
 
 def _shown(
-    robots: MagWormVecEnv, teacher: Steered, seed: int, gamma: float
+    robots: MagWormSB3VecEnv, teacher: Steered, seed: int, gamma: float
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float64]]:
     """What a teacher saw, wanted to do and got (S, …), some of its actions disturbed."""
     generator = np.random.default_rng(seed)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from magworm_gym import Scene
 from magworm_gym.learning.damage import factors_for_each, removed_for_each
 from magworm_gym.learning.settings import TrainingSettings
-from magworm_gym.sb3 import MagWormVecEnv
+from magworm_gym.sb3 import MagWormSB3VecEnv
 
 # The stage belongs to the rig, not to the robot.
 STAGE_PARAMETERS = "drive_"
@@ -17,7 +17,7 @@ TERMS = ("horizontal_force", "vertical_force", "torque", "mutual")
 """Factors that switch terms of the magnetic force."""
 
 
-class VariedRobots(MagWormVecEnv):
+class VariedRobots(MagWormSB3VecEnv):
     """Environments in which each has its own robot for good.
 
     A policy trained on many robots at once has to cope with each of them: one batch holds more
