@@ -57,5 +57,6 @@ def wrapped(text: str) -> str:
 
 FILTERS = (
     *(words.number, words.signed, words.with_spread, words.short, words.plain, words.listed, words.ranking),
+    *(words.thousands, words.signed_thousands, words.percent, words.signed_percent),
     *(words.capital, words.in_words, words.trend, wrapped),
 )

@@ -22,6 +22,26 @@ def signed(value: float, digits: int = 2) -> str:
     return f"{'+' if value >= 0.0 else '−'}{abs(value):.{digits}f}"
 
 
+def thousands(value: float) -> str:
+    """A whole number in groups of three digits: ``1,234,568``."""
+    return f"{value:,.0f}"
+
+
+def signed_thousands(value: float) -> str:
+    """The same with its sign."""
+    return f"{'+' if value >= 0.0 else '−'}{abs(value):,.0f}"
+
+
+def percent(part: float, digits: int = 0) -> str:
+    """A part of a whole: ``12 %``."""
+    return f"{number(100.0 * part, digits)} %"
+
+
+def signed_percent(part: float, digits: int = 0) -> str:
+    """The same with its sign."""
+    return f"{signed(100.0 * part, digits)} %"
+
+
 def with_spread(value: float, spread: float, digits: int = 2) -> str:
     """A number and what it leaves open: ``4.31 ± 0.12``."""
     return f"{number(value, digits)} ± {number(spread, digits)}"
