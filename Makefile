@@ -1,5 +1,5 @@
 # `make help` lists the targets. All that is needed: Rust (with clippy and rustfmt for the checks),
-# Python 3.10 or newer, make; valgrind for `make test`. Everything is installed into .venv/ inside this folder.
+# Python 3.10 or newer, make; valgrind for `make count`. Everything is installed into .venv/ inside this folder.
 
 PYTHON ?= python3
 VENV ?= .venv
@@ -56,16 +56,18 @@ study-growth: install-test  ## how cost grows with environments, nodes, magnets:
 	$(VENV_PYTHON) -m studies.growth
 
 study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
-	$(VENV_PYTHON) -m studies.needs
+	$(VENV_PYTHON) -m studies measure needs
+	$(VENV_PYTHON) -m studies render needs
 
 study-peak: need-valgrind install-test count-program  ## arithmetic of a step against the core's peak: docs/peak.md
 	cargo build --release --package magworm-py --example peak
-	$(VENV_PYTHON) -m studies.peak
+	$(VENV_PYTHON) -m studies measure peak
+	$(VENV_PYTHON) -m studies render peak
 
 study-stability: install-test  ## stiff and extreme scenes, the explicit scheme's largest step: docs/stability.md
 	$(VENV_PYTHON) -m studies.stability
 
-test: lint test-rust test-docs test-wheel test-python count  ## everything that CI runs
+test: lint test-rust test-docs test-wheel test-python  ## lint and all tests; CI runs `make test count`
 
 identify: install-test  ## identify the presets again, an hour: docs/identification/, rust/magworm/scenes/
 	for problem in paper-3-simulation paper-joint; do \
@@ -87,7 +89,7 @@ bench: install-test  ## time of a wrench, a step, and the throughput of environm
 	mkdir -p runs/bench
 	$(VENV_PYTHON) -m studies.throughput --out runs/bench/throughput.json
 
-count: need-valgrind count-program  ## instructions of steps and wrenches beside the committed ones
+count: need-valgrind count-program  ## instructions of steps and wrenches beside the committed ones; needs valgrind
 	$(PYTHON) -m studies.needs.counts
 
 count-write: need-valgrind count-program  ## commit the instructions counted now
