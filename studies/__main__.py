@@ -5,6 +5,8 @@ import sys
 from studies.kit.study import main
 
 MODULES = {
+    "needs": "studies.needs.study",
+    "peak": "studies.peak.study",
     "validation": "studies.validation.study",
 }
 """Every study, and the module that holds it."""

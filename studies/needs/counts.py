@@ -3,7 +3,9 @@
 python -m studies.needs.counts            # beside the committed ones; fails beyond 5 %
 python -m studies.needs.counts --write    # commits what was counted
 
-The tasks are those of ``rust/magworm-py/examples/count``. Needs nothing but Python and valgrind.
+The tasks are those of ``rust/magworm-py/examples/count``. Needs nothing but Python and valgrind. The harness
+gungraun would not shorten it: it holds a benchmark as a whole against an earlier run or a limit, where here
+are units of work, phases of a step and classes of instructions, and its runner would have to be installed.
 """
 
 import argparse
@@ -14,15 +16,18 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeVar
 
-ROOT = Path(__file__).parent.parent.parent
+T = TypeVar("T")
+R = TypeVar("R")
+
+ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "target" / "release" / "examples" / "count"
-COMMITTED = Path(__file__).parent / "instructions.csv"
+COMMITTED = Path(__file__).parent / "data" / "instructions.csv"
 TOLERANCE = 0.05
-THREADS = os.cpu_count() or 1
 TUNABLES = ":".join(f"glibc.cpu.x86_rep_{kind}_threshold=0x7fffffff" for kind in ("stosb", "movsb"))
 """A repeated store of the C library is one instruction, but callgrind counts each byte of it."""
 
@@ -31,34 +36,44 @@ def tasks() -> list[str]:
     """Names of all tasks."""
     if not PROGRAM.exists():
         sys.exit(f"{PROGRAM.relative_to(ROOT)} is missing: run make count, which builds it")
-    return _output([str(PROGRAM)]).split()
+    return output([str(PROGRAM)]).split()
 
 
 def phases(task: str) -> list[str]:
     """Names of the phases of a task's solver step."""
-    return _output([str(PROGRAM), task, "phases"]).splitlines()
+    return output([str(PROGRAM), task, "phases"]).splitlines()
 
 
-def count(task: str, phase: str | None = None) -> float:
-    """Instructions per unit of a task: a step, a wrench of eight lanes, a control step; or of a phase."""
-    names = [task] if phase is None else [task, phase]
-    with tempfile.TemporaryDirectory() as folder:
-        profile = Path(folder) / "profile"
-        command = ["valgrind", "--tool=callgrind", "--toggle-collect=*counted*"]
-        units = _output([*command, f"--callgrind-out-file={profile}", str(PROGRAM), *names])
-        found = re.search(r"^(?:totals|summary): (\d+)", profile.read_text(encoding="utf-8"), re.MULTILINE)
+def count(names: Sequence[str]) -> float:
+    """Instructions per unit of a task: a step, a wrench of eight lanes, a control step; or of one phase."""
+    units, profile = profiled(names)
+    found = re.search(r"^(?:totals|summary): (\d+)", profile, re.MULTILINE)
     if not found or int(found[1]) == 0:
         sys.exit(f"callgrind collected nothing in {' '.join(names)}: the function counted was inlined")
-    return int(found[1]) / int(units)
+    return int(found[1]) / units
 
 
-def count_all(names: Iterable[str]) -> dict[str, float]:
-    """Instructions per unit of some tasks."""
-    names = list(names)
+def profiled(names: Sequence[str], *options: str) -> tuple[int, str]:
+    """Units of work that a task, or one phase of it, has done, and callgrind's profile of them."""
+    with tempfile.TemporaryDirectory() as folder:
+        profile = Path(folder) / "profile"
+        command = ["valgrind", "--tool=callgrind", "--toggle-collect=*counted*", *options]
+        units = output([*command, f"--callgrind-out-file={profile}", str(PROGRAM), *names])
+        return int(units), profile.read_text(encoding="utf-8")
+
+
+def for_all(work: Callable[[T], R], items: Iterable[T]) -> dict[T, R]:
+    """Does the same for all, on all cores."""
+    chosen = list(items)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(zip(chosen, pool.map(work, chosen), strict=True))
+
+
+def count_all() -> dict[str, float]:
+    """Instructions per unit of all tasks."""
     if shutil.which("valgrind") is None:
         sys.exit("valgrind is missing: install it with the system's packages: apt install valgrind")
-    with ThreadPoolExecutor(THREADS) as pool:
-        return dict(zip(names, pool.map(count, names), strict=True))
+    return for_all(lambda task: count([task]), tasks())
 
 
 def committed() -> dict[str, float]:
@@ -69,7 +84,7 @@ def committed() -> dict[str, float]:
 
 def compiler() -> str:
     """The compiler that counts depend on."""
-    return _output(["rustc", "--version"]).strip()
+    return output(["rustc", "--version"]).strip()
 
 
 def compare(counted: Mapping[str, float], expected: Mapping[str, float]) -> tuple[str, list[str]]:
@@ -95,13 +110,10 @@ def write(counted: Mapping[str, float]) -> None:
         rows.writerows([task, f"{value:.1f}", compiler()] for task, value in counted.items())
 
 
-def environment() -> dict[str, str]:
-    """Variables under which instructions are counted."""
-    return {**os.environ, "GLIBC_TUNABLES": TUNABLES}
-
-
-def _output(command: list[str]) -> str:
-    run = subprocess.run(command, capture_output=True, text=True, env=environment())
+def output(command: Sequence[str]) -> str:
+    """What a program prints; ends with its last words where it fails."""
+    environment = {**os.environ, "GLIBC_TUNABLES": TUNABLES}
+    run = subprocess.run(command, capture_output=True, text=True, env=environment)
     if run.returncode:
         sys.exit(run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f"{command[0]} failed")
     return run.stdout
@@ -114,9 +126,8 @@ def main() -> None:
     )
     parser.add_argument("--write", action="store_true", help="commit what was counted")
     arguments = parser.parse_args()
-    counted = count_all(tasks())
-    expected = committed() if COMMITTED.exists() else {}
-    table, wrong = compare(counted, expected)
+    counted = count_all()
+    table, wrong = compare(counted, committed() if COMMITTED.exists() else {})
     print(table)
     if arguments.write:
         write(counted)

@@ -7,12 +7,12 @@ factor is needed.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Batch, Scene
+from studies.kit.passes import values_of
 
 MU_0 = 4e-7 * np.pi
 LANES = 8
@@ -28,8 +28,8 @@ TOLERANCES = (1e-6, 1e-4, 1e-3)
 class Magnets:
     """Length, width, height [m] and remanence [T] of body and drive magnets; the robot's weight [N]."""
 
-    body_m: tuple[float, float, float]
-    drive_m: tuple[float, float, float]
+    body_m: tuple[float, ...]
+    drive_m: tuple[float, ...]
     remanence_t: tuple[float, float]
     weight_n: float
 
@@ -50,21 +50,20 @@ class Magnets:
         return float(scale**0.25) + self.half_diagonals_m
 
 
-def magnets(scene: Scene, values: dict[str, Any]) -> Magnets:
-    """Magnets of a scene; ``values``: its fields."""
-    magnet, drive, material = values["magnet"], values["drive"], values["material"]
-    body = (magnet["length_m"], magnet["width_m"], magnet["height_m"])
+def magnets(scene: Scene) -> Magnets:
+    """Magnets of a scene."""
+    values = values_of(scene)
+    magnet, drive = values["magnet"], values["drive"]
+    body, driving = (
+        tuple(part[f"{side}_m"] for side in ("length", "width", "height")) for part in (magnet, drive)
+    )
     nodes = Batch(scene, 1).node_positions()[0]
     lengths = np.linalg.norm(np.diff(nodes, axis=0), axis=-1)
     geometry = scene.geometry
     rubber = lengths @ np.multiply(geometry["element_thickness_m"], geometry["element_width_m"])
-    mass = material["density_kg_m3"] * rubber + scene.magnets * magnet["density_kg_m3"] * float(np.prod(body))
-    return Magnets(
-        body,
-        (drive["length_m"], drive["width_m"], drive["height_m"]),
-        (magnet["remanence_t"], drive["remanence_t"]),
-        float(mass * 9.81),
-    )
+    mass = values["material"]["density_kg_m3"] * rubber
+    mass += scene.magnets * magnet["density_kg_m3"] * np.prod(body)
+    return Magnets(body, driving, (magnet["remanence_t"], drive["remanence_t"]), float(mass * 9.81))
 
 
 def distances_m(scene: Scene) -> NDArray[np.float64]:
@@ -90,3 +89,60 @@ def shares_beyond(distance_m: NDArray[np.float64], limit_m: float) -> tuple[floa
     beyond = distance_m > limit_m
     blocks = beyond.reshape(len(beyond), -1, LANES, *beyond.shape[2:]).all(axis=2)
     return float(beyond.mean()), float(blocks.mean())
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """What is out of reach of a tolerance.
+
+    Attributes:
+        tolerance: Force that may be left out, relative to the robot's weight.
+        limit_m: Distance of centres beyond which it is below that [m].
+        wrenches: Share of the wrenches.
+        blocks: Share of the wrenches of eight lanes.
+    """
+
+    tolerance: float
+    limit_m: float
+    wrenches: float
+    blocks: float
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Distances of a scene in use.
+
+    Attributes:
+        scene: Its name.
+        wrenches: Distances seen.
+        nearest_m, farthest_m: The least and the greatest [m].
+        beyond: By tolerance.
+        order_1_m: Where order 1 has the error that order 2 has at the nearest height [m].
+        order_1_blocks: Share of blocks of eight lanes beyond.
+    """
+
+    scene: str
+    wrenches: int
+    nearest_m: float
+    farthest_m: float
+    beyond: list[Beyond]
+    order_1_m: float
+    order_1_blocks: float
+
+
+def reach(name: str, scene: Scene, order_1_m: float) -> Reach:
+    """Looks at a scene under random actions."""
+    pair, distance_m = magnets(scene), distances_m(scene)
+    limits = {tolerance: pair.out_of_reach_m(tolerance) for tolerance in TOLERANCES}
+    return Reach(
+        scene=name,
+        wrenches=distance_m.size,
+        nearest_m=float(distance_m.min()),
+        farthest_m=float(distance_m.max()),
+        beyond=[
+            Beyond(tolerance, limit_m, *shares_beyond(distance_m, limit_m))
+            for tolerance, limit_m in limits.items()
+        ],
+        order_1_m=order_1_m,
+        order_1_blocks=shares_beyond(distance_m, order_1_m)[1],
+    )

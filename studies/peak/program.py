@@ -1,117 +1,161 @@
-"""The program that counts and times: ``rust/magworm-py/examples/peak``."""
+"""The program that counts and times: ``rust/magworm-py/examples/peak``, and what it says as rows of data."""
 
 import csv
 import subprocess
 import sys
 from collections import defaultdict
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import astuple, dataclass
 from statistics import median
+from typing import Any
 
 from studies.needs.counts import ROOT
 
 PROGRAM = ROOT / "target" / "release" / "examples" / "peak"
 STEP = "step"
 """All phases together."""
+CYCLE = ("all", "cycle")
+"""Instruction set and kernel of the time of a cycle."""
 
 
 @dataclass(frozen=True)
 class Timed:
     """A time [ns]: the median of some runs, and their range."""
 
-    ns: float
-    least: float
-    most: float
+    median_ns: float
+    least_ns: float
+    most_ns: float
 
 
 @dataclass(frozen=True)
-class Work:
-    """What a phase does in a solver step of a block.
+class CoreTime:
+    """A round of a kernel, in so many chains that wait for nothing in each other; time of one chain."""
 
-    Attributes:
-        rows: Rows of lanes that are read or written.
-        operations: Operations by kind, each of all lanes at once.
-        chain_ns: Time of the longest chain of operations that wait for each other [ns].
-        chain: Its operations by kind.
-    """
+    instruction_set: str
+    kernel: str
+    chains: int
+    time: Timed
 
-    rows: float
-    operations: Mapping[str, float]
-    chain_ns: float
-    chain: Mapping[str, float]
+
+@dataclass(frozen=True)
+class StepTime:
+    """A solver step, or a phase of it."""
+
+    place: str
+    instruction_set: str
+    lanes: int
+    phase: str
+    time: Timed
+
+
+@dataclass(frozen=True)
+class Operations:
+    """Operations by kind, each of all lanes at once."""
+
+    add: float
+    multiply: float
+    divide: float
+    root: float
+    compare: float
+    select: float
+    bits: float
+    mask: float
+    load: float
+    store: float
 
     @property
     def flops(self) -> float:
         """Additions, subtractions, multiplications, divisions and roots of one lane."""
-        return sum(self.operations[kind] for kind in ("add", "multiply", "divide", "root"))
+        return self.add + self.multiply + self.divide + self.root
 
 
 @dataclass(frozen=True)
-class Counted:
-    """What is counted of a scene.
+class Work:
+    """What a phase does in a solver step of a block of eight, or of one lane: the mean of the same eight.
 
     Attributes:
-        block: Phases of a block of eight, the whole step last.
-        alone: Phases of a single robot, the mean of the same eight.
-        systems: Linear systems with contact a step, of the block and of a single robot.
+        place: The plane or space.
+        lanes: Eight or one.
+        phase: Which.
+        rows: Rows of lanes that are read or written.
+        operations: All of them.
     """
 
-    block: Mapping[str, Work]
-    alone: Mapping[str, Work]
-    systems: tuple[float, float]
+    place: str
+    lanes: int
+    phase: str
+    rows: float
+    operations: Operations
 
 
-def kinds() -> list[str]:
-    """Names of the kinds of operations."""
-    return output("kinds").strip().split(",")
+@dataclass(frozen=True)
+class Chain:
+    """The longest chain of operations in a phase that wait for each other.
+
+    Attributes:
+        place: The plane or space.
+        phase: Which.
+        ns: How long it takes [ns].
+        operations: Those of the chain.
+    """
+
+    place: str
+    phase: str
+    ns: float
+    operations: Operations
 
 
-def core(runs: int) -> dict[tuple[str, str, int], Timed]:
-    """Time of a round in one chain by instruction set, kernel and number of chains; a cycle under ``all``."""
-    found = defaultdict(list)
-    for name, kernel, chains, ns in csv.reader(output("core", str(runs)).splitlines()):
-        found[name, kernel, int(chains)].append(float(ns))
-    return {key: summary(values) for key, values in found.items()}
+@dataclass(frozen=True)
+class Systems:
+    """Linear systems with contact a step, of a block of eight or of one lane."""
+
+    place: str
+    lanes: int
+    systems: float
 
 
-def count(preset: str, latency_ns: Mapping[str, float]) -> Counted:
-    """Operations of a solver step, and its chains at given latencies of the kinds of operations [ns]."""
-    names = kinds()
-    block: dict[str, Work] = {}
-    alone: dict[str, Work] = {}
-    systems = {}
-    lines = output("count", preset, *(f"{latency_ns[name]:.6g}" for name in names)).splitlines()
-    for lanes, phase, first, *rest in csv.reader(lines):
+def core(runs: int) -> list[CoreTime]:
+    """Times of all kernels, and of a cycle."""
+    lines = ((name, kernel, int(chains), ns) for name, kernel, chains, ns in said("core", str(runs)))
+    return [CoreTime(name, kernel, chains, time) for (name, kernel, chains), time in summaries(lines).items()]
+
+
+def times(place: str, preset: str, runs: int) -> list[StepTime]:
+    """Times of a solver step and its phases by instruction set and lanes."""
+    lines = ((name, int(lanes), phase, ns) for name, lanes, phase, ns in said("time", preset, str(runs)))
+    return [
+        StepTime(place, name, lanes, phase, time) for (name, lanes, phase), time in summaries(lines).items()
+    ]
+
+
+def count(place: str, preset: str, latency_ns: Operations) -> tuple[list[Work], list[Chain], list[Systems]]:
+    """What a solver step does, and its chains at given latencies of the kinds of operations [ns]."""
+    works, chains, systems = [], [], []
+    for lanes, phase, first, *rest in said("count", preset, *(f"{ns:.6g}" for ns in astuple(latency_ns))):
         if phase == "systems":
-            systems[lanes] = float(first)
+            systems.append(Systems(place, int(lanes), float(first)))
         elif rest:
-            chain_ns, *numbers = (float(text) for text in rest)
-            counts = dict(zip(names, numbers[: len(names)], strict=True))
-            chain = dict(zip(names, numbers[len(names) :], strict=True))
-            work = Work(float(first), counts, chain_ns, chain)
-            (alone if lanes == "1" else block)[phase] = work
-    alone.pop(STEP, None)
-    return Counted(block, alone, (systems["8"], systems["1"]))
+            chain_ns, *numbers = map(float, rest)
+            half = len(numbers) // 2
+            works.append(Work(place, int(lanes), phase, float(first), Operations(*numbers[:half])))
+            if lanes != "1":
+                chains.append(Chain(place, phase, chain_ns, Operations(*numbers[half:])))
+    return [work for work in works if (work.lanes, work.phase) != (1, STEP)], chains, systems
 
 
-def times(preset: str, runs: int) -> dict[tuple[str, int, str], Timed]:
-    """Time of a solver step and its phases by instruction set and lanes."""
-    found = defaultdict(list)
-    for name, lanes, phase, ns in csv.reader(output("time", preset, str(runs)).splitlines()):
-        found[name, int(lanes), phase].append(float(ns))
-    return {key: summary(values) for key, values in found.items()}
+def summaries(lines: Iterator[tuple[Any, ...]]) -> Mapping[Any, Timed]:
+    """Median and range of the times that stand last in lines, by what stands before."""
+    found: dict[Any, list[float]] = defaultdict(list)
+    for *key, ns in lines:
+        found[tuple(key)].append(float(ns))
+    return {key: Timed(median(values), min(values), max(values)) for key, values in found.items()}
 
 
-def summary(values: list[float]) -> Timed:
-    """Median and range."""
-    return Timed(median(values), min(values), max(values))
-
-
-def output(*arguments: str) -> str:
-    """What the program prints."""
+def said(*arguments: str) -> Iterator[list[str]]:
+    """What the program prints, line by line."""
     if not PROGRAM.exists():
         sys.exit(f"{PROGRAM.relative_to(ROOT)} is missing: run make study-peak, which builds it")
     run = subprocess.run([str(PROGRAM), *arguments], capture_output=True, text=True)
     if run.returncode:
         sys.exit(run.stderr.strip())
-    return run.stdout
+    return csv.reader(run.stdout.splitlines())

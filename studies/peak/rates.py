@@ -1,13 +1,11 @@
 """What the core does at best, from the times of its rounds."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from studies.peak.program import Timed
+from studies.peak.program import CYCLE, CoreTime, Operations
 
 LANES = 8
-Rounds = Mapping[tuple[str, str, int], Timed]
-"""By instruction set, kernel and number of chains."""
 
 
 @dataclass(frozen=True)
@@ -33,39 +31,38 @@ class Rates:
         fused = self.throughput_ns.get("fused")
         return None if fused is None else 2 * LANES / fused
 
-    def waits_ns(self) -> dict[str, float]:
+    def waits_ns(self) -> Operations:
         """Latency of each kind of operation [ns]."""
         alone = self.latency_ns
         add, choice = alone["add"], alone["compare, select"]
-        return {
-            "add": add,
-            "multiply": alone["multiply"],
-            "divide": alone["divide"],
-            "root": alone["add, root"] - add,
-            "compare": choice / 2,
-            "select": choice / 2,
-            "bits": alone["add, bits"] - add,
-            "mask": choice / 2,
-            "load": alone["store, load, add"] - add,
-            "store": 0.0,
-        }
+        return Operations(
+            add=add,
+            multiply=alone["multiply"],
+            divide=alone["divide"],
+            root=alone["add, root"] - add,
+            compare=choice / 2,
+            select=choice / 2,
+            bits=alone["add, bits"] - add,
+            mask=choice / 2,
+            load=alone["store, load, add"] - add,
+            store=0.0,
+        )
 
 
-def sets(rounds: Rounds) -> list[str]:
-    """The instruction sets that were measured, the widest first."""
-    return list(dict.fromkeys(name for name, _, _ in rounds if name != "all"))
+def all_rates(core: Sequence[CoreTime]) -> dict[str, Rates]:
+    """The rates of each instruction set, the widest first: the best number of chains, and a single one."""
+    names = dict.fromkeys(one.instruction_set for one in core if one.instruction_set != CYCLE[0])
+    return {name: rates([one for one in core if one.instruction_set == name]) for name in names}
 
 
-def rates(rounds: Rounds, name: str) -> Rates:
-    """The rates of an instruction set: the best number of chains, and a single one."""
-    kernels = dict.fromkeys(kernel for of, kernel, _ in rounds if of == name)
-    best = {
-        kernel: min(timed.ns for (of, what, _), timed in rounds.items() if (of, what) == (name, kernel))
-        for kernel in kernels
-    }
-    return Rates(best, {kernel: rounds[name, kernel, 1].ns for kernel in kernels})
+def rates(core: Sequence[CoreTime]) -> Rates:
+    """The rates of an instruction set."""
+    best: dict[str, float] = {}
+    for one in core:
+        best[one.kernel] = min(one.time.median_ns, best.get(one.kernel, float("inf")))
+    return Rates(best, {one.kernel: one.time.median_ns for one in core if one.chains == 1})
 
 
-def cycle_ns(rounds: Rounds) -> float:
+def cycle_ns(core: Sequence[CoreTime]) -> float:
     """A cycle of the clock [ns]."""
-    return rounds["all", "cycle", 1].ns
+    return next(one.time.median_ns for one in core if (one.instruction_set, one.kernel) == CYCLE)
