@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import numbers, shown
-from magworm_gym.policy.fit import check_fit, parts_of
+from magworm_gym.policy.fit import compare_limits, compare_parts, declarer, parts_of
 from magworm_gym.policy.mistake import PolicyError
 from magworm_gym.policy.network import Network, Normaliser
 from magworm_gym.scene import AnyScenes, load_scenes
@@ -175,7 +175,16 @@ class Policy:
             PolicyError: Names, units, scales, sizes or bounds differ, a wrapper changes observations, or the
                 scene is another.
         """
-        check_fit(self, environment, other_scene=other_scene)
+        known = declarer(environment)
+        compare_parts("observation", self.observation, known.observation_specification)
+        compare_parts("action", self.action, getattr(known, "batch", known).action_specification)
+        for scene in known.scenes:
+            compare_limits(self.stage_limits, scene.stage_limits or {})
+            if scene not in self.scenes and not other_scene:
+                raise PolicyError(
+                    f"scene {scene.name!r} differs from {self.scene.name!r}, the scene of the training; "
+                    "allowed: the same scene, or other_scene=True"
+                )
 
     @property
     def scene(self) -> Scene:
