@@ -19,7 +19,7 @@ from magworm_gym.identification import (
 )
 from magworm_gym.identification.evaluation import BROKEN, REFUSED, Evaluator
 from magworm_gym.identification.experiment import fitted_scene
-from magworm_gym.identification.problem import scene_numbers
+from magworm_gym.identification.paths import scene_numbers
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.targets import Comparison, Target
 

@@ -48,19 +48,22 @@ def test_tracks_of_deeplabcut_are_read_with_gaps(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("time,x,y\n", "line 1 begins with 'time'; allowed: 'scorer'"),
-        (
-            "scorer,s\nindividuals,a\nbodyparts,b\ncoords,x\n",
-            "several animals; allowed: tracks of a single animal",
-        ),
+        ("time,x,y\n", "line 1, its beginning is 'time'; allowed: 'scorer'"),
+        ("", "line 1, its beginning is ''; allowed: 'scorer'"),
+        ("scorer,s\nbodyparts,b\ncoords\n", "has no columns; allowed: x, y, likelihood"),
         (HEADER, "has no frames"),
         (HEADER + "0,1,2\n", "line 4 has 3 columns; allowed: 4"),
         (HEADER + "0,1,two,1\n", "line 4, column 3 is 'two'; allowed: a number or nothing"),
         (
             HEADER + "1,1,2,1\n1,1,2,1\n",
-            "line 5, column 1 is '1'; allowed: the frame's number, greater than 1",
+            "line 5, column 1 is '1'; allowed: the frame's number, a whole one, greater than 1",
         ),
-        (HEADER.replace("likelihood", "z"), "line 3, column 4 is 'z'"),
+        (
+            HEADER.replace("likelihood", "z") + "0,1,2,3\n",
+            "coords of 'head' are 'z' in column 4; allowed: x",
+        ),
+        (HEADER.replace("x,", "likelihood_,") + "0,1,2,3\n", "coords of 'head' are 'likelihood_'"),
+        (HEADER.replace("x,y", "y,x_ens_median") + "0,1,2,3\n", "lacks x of body part 'head'"),
     ],
 )
 def test_another_form_of_tracks_is_refused_with_line_and_column(tmp_path, text, message):

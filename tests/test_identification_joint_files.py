@@ -6,7 +6,7 @@ import pytest
 from joint_problems import FAST, HELD, REPOSITORY, SPEEDS, entries, problem
 
 from magworm_gym.identification import ProblemError, make_problem, read_problem
-from magworm_gym.identification.problem import scene_numbers
+from magworm_gym.identification.paths import scene_numbers
 
 JOINT = REPOSITORY / "studies/identification/paper-joint.toml"
 

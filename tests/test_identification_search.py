@@ -70,7 +70,7 @@ def test_the_best_candidate_that_meets_a_target_is_found():
     reached = Evaluator(blank).outcomes(units[7])[1].model
     made = problem([FAST, value("four.stride_m", 0.4, reached)])
     evaluator = Evaluator(made)
-    losses, shares = evaluator.judged(units, np.full(24, np.inf))
+    losses, shares = evaluator.losses_and_shares(units, np.full(24, np.inf))
     assert shares.sum(axis=1) == pytest.approx(losses)
     worst = int(np.nanargmax(np.where(shares[:, 1] <= made.fitted[1].allowance, losses, np.nan)))
     outcomes = [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from magworm_gym import Batch, Scene, SceneError
-from magworm_gym.identification.problem import scene_numbers
+from magworm_gym.identification.paths import scene_numbers
 from magworm_gym.identification.scene_file import commented_scene
 
 SEGMENTS = Scene.preset("paper-3").in_segments()

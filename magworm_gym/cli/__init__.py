@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         arguments: Without the program's name; None for those of the process.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
-    parsed = _parser().parse_args(words, argparse.Namespace(words=words))
+    parsed = _parser().parse_args(_no_flags(words), argparse.Namespace(words=words))
     try:
         parsed.run(parsed)
     except (ProblemError, SceneError, PolicyError, ImportError) as mistake:
@@ -32,6 +32,19 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         print(f"magworm {parsed.command}: stopped", file=sys.stderr)
         sys.exit(INTERRUPTED)
     sys.exit(0)
+
+
+def _no_flags(words: list[str]) -> list[str]:
+    """Words of which negative numbers begin with a blank: argparse takes -5e-2 for a flag."""
+    return [f" {word}" if word.startswith("-") and _is_number(word) else word for word in words]
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -10,7 +10,7 @@ from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.example_tracks import Blur, write_example_tracks
 from magworm_gym.identification.experiment import edited_scene
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.problem import scene_numbers
+from magworm_gym.identification.paths import scene_numbers
 from magworm_gym.scene import load_scene
 
 STIFFNESS, STATIC, DYNAMIC = "material.youngs_modulus_pa", "ground.static_friction", "ground.dynamic_friction"
@@ -76,14 +76,14 @@ def run(parsed: argparse.Namespace) -> None:
 def _command(parsed: argparse.Namespace, parts: list[str], numbers: dict[str, float]) -> str:
     """The command that finds the values again."""
     words = ["magworm", "identify", "--scene", parsed.scene, "--tracks", str(parsed.file)]
-    words += ["--metres-per-pixel", f"{parsed.metres_per_pixel:g}"]
-    words += ["--frames-per-second", f"{parsed.frames_per_second:g}", "--magnets", *parts]
+    words += ["--metres-per-pixel", f"{parsed.metres_per_pixel:.12g}"]
+    words += ["--frames-per-second", f"{parsed.frames_per_second:.12g}", "--magnets", *parts]
     for path in TRUTH:
         low = max(LOW * numbers[path], numbers[DYNAMIC] if path == STATIC else 0.0)
         words += ["--fit", path, f"{low:.3g}", f"{HIGH * numbers[path]:.3g}"]
     for path, text in parsed.set:
         if path not in TRUTH:
             words += ["--set", path, text]
-    words += ["--drive-x", f"{parsed.drive_x:g}", "--drive-y", f"{parsed.drive_y:g}"]
-    words += ["--drive-speed", f"{parsed.drive_speed:g}", "--out", "runs/fit"]
+    words += ["--drive-x", f"{parsed.drive_x:.12g}", "--drive-y", f"{parsed.drive_y:.12g}"]
+    words += ["--drive-speed", f"{parsed.drive_speed:.12g}", "--out", "runs/fit"]
     return shlex.join(words)

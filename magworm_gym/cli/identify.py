@@ -36,6 +36,7 @@ CAMERA_FLAGS = (
     "metres_per_pixel",
     "frames_per_second",
     "magnets",
+    "individual",
     "start_s",
     "head",
     "y_axis",
@@ -99,7 +100,8 @@ def _add_search(group: Any) -> None:
 
 def _add_film(group: Any) -> None:
     group.add_argument("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
-    group.add_argument("--tracks", metavar="CSV", help="tracks of DeepLabCut, single animal")
+    group.add_argument("--tracks", metavar="FILE", help="tracks of DeepLabCut, CSV or HDF5")
+    group.add_argument("--individual", metavar="NAME", help="which animal, where the tracks are of several")
     group.add_argument("--metres-per-pixel", type=float, metavar="M", help="scale of the film [m/px]")
     group.add_argument("--frames-per-second", type=float, metavar="N", help="frame rate [1/s]")
     group.add_argument(
@@ -157,6 +159,8 @@ def _identify(parsed: argparse.Namespace) -> None:
     if parsed.blind:
         search["blind"] = True
     problem = _problem(parsed, search)
+    for remark in problem.noticed:
+        print(f"magworm identify: please check: {remark}", file=sys.stderr)
     with ProgressBar(quiet=parsed.quiet) as progress:
         found = identify(problem, parsed.out, resume=parsed.resume, threads=parsed.threads, progress=progress)
     write_results(found, parsed.out)

@@ -1,6 +1,7 @@
 """The drive's motion as it was measured, as waypoints of a scene."""
 
-import csv
+from dataclasses import dataclass
+from heapq import heappop, heappush
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,67 +13,154 @@ from magworm_gym.arguments import path_of
 from magworm_gym.identification.camera import START_SPAN_S, Camera
 from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.table import read_text
+from magworm_gym.identification.sheet import read_sheet
 
 Floats = NDArray[np.float64]
 
 COLUMNS = ("time_s", "x_m", "y_m")
 
+MOST_WAYPOINTS = 10_000
+"""Most waypoints of a scene."""
 
-def waypoints(time_s: Floats, points_m: Floats) -> dict[str, Any]:
-    """A motion of kind ``waypoints`` that starts at time 0.
+FARTHEST_M = 1e-4
+"""Greatest distance of a measured motion from the waypoints that stand for it [m]."""
 
-    Args:
-        time_s: Times, rising (W,) [s]; those before 0 are left out.
-        points_m: Places of the drive (W, 2) [m].
+UNCOVERED = 0.1
+"""Part of an experiment that a measured motion may leave out at either end without a word [1]."""
+
+
+@dataclass(frozen=True)
+class StageLog:
+    """What a stage wrote down.
+
+    Attributes:
+        file: Where it comes from.
+        time_s: Times, rising (W,) [s].
+        points_m: Places of the drive (W, 2) in the axes of the scene [m].
     """
-    first = np.array([np.interp(0.0, time_s, points_m[:, axis]) for axis in (0, 1)])
-    later = time_s > 0.0
-    time_s, points_m = np.append(0.0, time_s[later]), np.vstack([first, points_m[later]])
-    x_m, y_m = points_m.T
-    return {"kind": "waypoints", "time_s": time_s.tolist(), "x_m": x_m.tolist(), "y_m": y_m.tolist()}
+
+    file: Path
+    time_s: Floats
+    points_m: Floats
 
 
-def read_drive(path: str | PathLike[str], start_s: float) -> dict[str, Any]:
-    """Reads the drive's motion from a CSV file with the columns time_s, x_m, y_m.
-
-    Args:
-        path: The file; places are in the axes of the scene.
-        start_s: Time in the file at which the experiment begins [s].
+def read_stage(path: str | PathLike[str]) -> StageLog:
+    """Reads the drive's motion from a CSV file with the columns time_s, x_m, y_m among others.
 
     Raises:
         ProblemError: A file of another form; says line, column and value.
     """
     path = path_of("path", path)
-    rows = list(csv.reader(read_text(path, "drive file").splitlines()))
-    header = tuple(cell.strip() for cell in rows[0]) if rows else ()
-    if header != COLUMNS:
-        raise ProblemError(f"{path}, line 1 is {','.join(header)!r}; allowed: {','.join(COLUMNS)}")
+    sheet = read_sheet(path, "drive file")
+    line, header = sheet.rows[0] if sheet.rows else (1, [])
+    if any(header.count(name) != 1 for name in COLUMNS):
+        raise ProblemError(f"{path}, line {line} is {','.join(header)!r}; allowed: {','.join(COLUMNS)}")
+    places = [header.index(name) for name in COLUMNS]
     values: list[list[float]] = []
-    for line, row in enumerate(rows[1:], start=2):
-        if row:
-            values.append(_numbers(path, line, row))
-            if len(values) > 1 and values[-1][0] <= values[-2][0]:
-                raise ProblemError(f"{path}, line {line}, time_s is {values[-1][0]:g}; allowed: rising")
+    for line, row in sheet.rows[1:]:
+        if len(row) <= max(places):
+            raise ProblemError(f"{path}, line {line} has {len(row)} columns; allowed: {len(header)}")
+        numbers = [
+            sheet.number(line, f"column {name}", row[at], "a number")
+            for name, at in zip(COLUMNS, places, strict=True)
+        ]
+        for name, number in zip(COLUMNS, numbers, strict=True):
+            if not np.isfinite(number):
+                raise sheet.refusal(line, f"column {name}", str(number), "a number")
+        if values and numbers[0] <= values[-1][0]:
+            raise ProblemError(f"{path}, line {line}, time_s is {numbers[0]:g}; allowed: rising")
+        values.append(numbers)
     if not values:
         raise ProblemError(f"{path} has no rows; allowed: at least one after the header")
     table = np.array(values)
-    return waypoints(table[:, 0] - start_s, table[:, 1:])
+    return StageLog(path, table[:, 0], table[:, 1:])
 
 
-def _numbers(path: Path, line: int, row: list[str]) -> list[float]:
-    if len(row) != len(COLUMNS):
-        raise ProblemError(f"{path}, line {line} has {len(row)} columns; allowed: {len(COLUMNS)}")
-    numbers = []
-    for column, text in zip(COLUMNS, row, strict=True):
-        try:
-            number = float(text)
-        except ValueError:
-            number = float("nan")
-        if not np.isfinite(number):
-            raise ProblemError(f"{path}, line {line}, column {column} is {text!r}; allowed: a number")
-        numbers.append(number)
-    return numbers
+def drive_from_stage(log: StageLog, start_s: float, duration_s: float) -> tuple[dict[str, Any], list[str]]:
+    """The drive's motion during an experiment, and what there is to say of it.
+
+    Args:
+        log: What the stage wrote down.
+        start_s: Time in it at which the experiment begins [s].
+        duration_s: Duration of the experiment [s].
+
+    Raises:
+        ProblemError: It says nothing of the time of the experiment.
+    """
+    time_s = log.time_s - start_s
+    first_s, last_s = float(time_s[0]), float(time_s[-1])
+    told = f"{log.file}: its times less start_s = {start_s:g} are {first_s:g} to {last_s:g} s"
+    if len(time_s) > 1 and (last_s <= 0.0 or first_s >= duration_s):
+        raise ProblemError(
+            f"{told}, and the experiment lasts from 0 to {duration_s:g} s; allowed: times on the clock of "
+            "the film, or a start_s that brings them there"
+        )
+    remarks = []
+    if len(time_s) > 1 and max(first_s, duration_s - last_s) > UNCOVERED * duration_s:
+        remarks.append(f"{told} of 0 to {duration_s:g} s; in the rest the drive stands still")
+    motion, error_m = waypoints(time_s, log.points_m, duration_s)
+    if error_m > FARTHEST_M:
+        raise ProblemError(
+            f"{log.file}: {MOST_WAYPOINTS} waypoints miss it by {error_m:.2g} m; allowed: a motion that they "
+            f"follow to {FARTHEST_M:g} m"
+        )
+    if error_m > 0.0:
+        count = len(motion["time_s"])
+        remarks.append(
+            f"{log.file}: {count} waypoints stand for its {len(time_s)} rows and miss none by more than "
+            f"{error_m:.2g} m"
+        )
+    return motion, remarks
+
+
+def waypoints(time_s: Floats, points_m: Floats, duration_s: float) -> tuple[dict[str, Any], float]:
+    """A motion of kind ``waypoints`` that starts at time 0, and how far it is off at most [m].
+
+    Args:
+        time_s: Times, rising (W,) [s]; those before 0 are left out.
+        points_m: Places of the drive (W, 2) [m].
+        duration_s: Where there are too many, those after it are left out [s].
+    """
+    first = np.array([np.interp(0.0, time_s, points_m[:, axis]) for axis in (0, 1)])
+    later = time_s > 0.0
+    time_s, points_m = np.append(0.0, time_s[later]), np.vstack([first, points_m[later]])
+    error_m = 0.0
+    if len(time_s) > MOST_WAYPOINTS:
+        until = int(np.searchsorted(time_s, duration_s)) + 1
+        kept, error_m = thinned(time_s[:until], points_m[:until], MOST_WAYPOINTS)
+        time_s, points_m = time_s[kept], points_m[kept]
+    x_m, y_m = points_m.T
+    return {"kind": "waypoints", "time_s": time_s.tolist(), "x_m": x_m.tolist(), "y_m": y_m.tolist()}, error_m
+
+
+def thinned(time_s: Floats, points_m: Floats, most: int) -> tuple[list[int], float]:
+    """Points between which straight lines miss the others least: their places, and by how much at most [m].
+
+    The point that is missed most is kept next, as Ramer, Douglas and Peucker do, until none is missed.
+
+    Args:
+        time_s: Times, rising (W,) [s].
+        points_m: Places (W, 2) [m].
+        most: Most points that are kept.
+    """
+
+    def missed(first: int, last: int) -> tuple[float, int, int, int]:
+        """Minus the greatest distance from the line between two points, its place, and theirs."""
+        share = ((time_s[first : last + 1] - time_s[first]) / (time_s[last] - time_s[first]))[:, None]
+        line = points_m[first] + share * (points_m[last] - points_m[first])
+        away = np.abs(points_m[first : last + 1] - line).max(axis=1)
+        return -float(away.max()), first + int(away.argmax()), first, last
+
+    if len(time_s) <= most:
+        return list(range(len(time_s))), 0.0
+    kept = [0, len(time_s) - 1]
+    waiting = [missed(*kept)]
+    while len(kept) < most and waiting[0][0] < 0.0:
+        _, at, first, last = heappop(waiting)
+        kept.append(at)
+        heappush(waiting, missed(first, at))
+        heappush(waiting, missed(at, last))
+    return sorted(kept), -waiting[0][0]
 
 
 def drive_from_film(
@@ -82,6 +170,7 @@ def drive_from_film(
     magnets: list[str],
     start_m: Floats,
     *,
+    duration_s: float,
     least_likelihood: float,
     height_m: float | None,
 ) -> dict[str, Any]:
@@ -96,6 +185,7 @@ def drive_from_film(
         part: The body part on the drive magnet.
         magnets: Body part of each magnet from the head; empty for those that were not tracked.
         start_m: Places of the magnets in the start pose (M, 2) [m].
+        duration_s: Duration of the experiment [s].
         least_likelihood: Points below are left out [1].
         height_m: Height of the drive [m]; None takes the tracked one.
 
@@ -103,16 +193,15 @@ def drive_from_film(
         ProblemError: The drive was found in no frame, or no magnet at the start.
     """
     time_s = camera.time_s(tracks.frames)
-    track = tracks.part(part)
-    seen = (track[:, 2] >= least_likelihood) & np.isfinite(track).all(axis=1)
+    seen = tracks.sure(part, least_likelihood)
     if not seen.any():
         raise ProblemError(f"{tracks.file}: {part!r} has no likelihood of at least {least_likelihood:g}")
-    points = camera.points_m(track[seen, :2])
+    points = camera.points_m(tracks.part(part)[seen, :2])
     if isinstance(camera.origin, str):
         points = points + _start_offset(tracks, camera, magnets, start_m, least_likelihood)
     if height_m is not None:
         points[:, 1] = height_m
-    return waypoints(time_s[seen], points)
+    return waypoints(time_s[seen], points, duration_s)[0]
 
 
 def _start_offset(
@@ -124,9 +213,8 @@ def _start_offset(
     offsets = []
     for magnet, part in enumerate(magnets):
         if part:
-            track = tracks.part(part)
-            kept = begun & (track[:, 2] >= least_likelihood) & np.isfinite(track).all(axis=1)
-            offsets.append(start_m[magnet] - camera.points_m(track[kept, :2]))
+            kept = begun & tracks.sure(part, least_likelihood)
+            offsets.append(start_m[magnet] - camera.points_m(tracks.part(part)[kept, :2]))
     found = np.concatenate(offsets)
     if not len(found):
         raise ProblemError(

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from magworm_gym._magworm import SceneError
 from magworm_gym.identification.experiment import Run
-from magworm_gym.identification.problem import Problem, scene_numbers
+from magworm_gym.identification.paths import scene_numbers
+from magworm_gym.identification.problem import Problem
 from magworm_gym.identification.targets import Aim, Outcome
 from magworm_gym.recording import Recording
 
@@ -26,7 +27,7 @@ REFUSED = 1e9
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Evaluation:
     """What became of a candidate.
 
     Attributes:
@@ -43,11 +44,11 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Stage:
-    """A run, and what can be judged after it.
+    """A run, and what can be told after it.
 
     Attributes:
         run: The run.
-        aims: What needs its recordings and perhaps those of earlier runs, by place among the fitted aims.
+        aims: What needs its recordings and perhaps those of earlier runs, by place among the fitted ones.
     """
 
     run: Run
@@ -72,21 +73,21 @@ class Evaluator:
         self._threads = threads or os.cpu_count() or 1
         self._fitted = _stages(problem.runs, problem.fitted)
 
-    def judged(self, units: Floats, bounds: Floats) -> tuple[Floats, Floats]:
+    def losses_and_shares(self, units: Floats, bounds: Floats) -> tuple[Floats, Floats]:
         """Losses (C,) of points of the cube (C, P), and shares of the fitted aims (C, A).
 
         Losses beyond bounds (C,) are less than exact, shares that are not known are NaN.
         """
-        verdicts = self._all(self._verdict, units, bounds)
-        return np.array([each.loss for each in verdicts]), np.array([each.shares for each in verdicts])
+        found = self._all(self._evaluation, units, bounds)
+        return np.array([each.loss for each in found]), np.array([each.shares for each in found])
 
     def losses(self, units: Floats, bounds: Floats) -> Floats:
-        """Losses alone, see :meth:`judged`."""
-        return self.judged(units, bounds)[0]
+        """Losses alone, see :meth:`losses_and_shares`."""
+        return self.losses_and_shares(units, bounds)[0]
 
-    def verdicts(self, units: Floats) -> list[Verdict]:
+    def evaluations(self, units: Floats) -> list[Evaluation]:
         """What becomes of points of the cube (C, P)."""
-        return self._all(self._verdict, units, np.full(len(units), np.inf))
+        return self._all(self._evaluation, units, np.full(len(units), np.inf))
 
     def outcomes(self, unit: Floats, aims: Sequence[Aim] | None = None) -> list[Outcome]:
         """How well a point of the cube (P,) meets each aim; those that cannot be simulated say so.
@@ -127,7 +128,7 @@ class Evaluator:
         except SceneError as error:
             return str(error)
 
-    def _verdict(self, unit: Floats, bound: float) -> Verdict:
+    def _evaluation(self, unit: Floats, bound: float) -> Evaluation:
         values = self.problem.space.scene_values(unit)
         recordings: dict[str, Recording] = {}
         residuals: list[Floats] = []
@@ -135,20 +136,20 @@ class Evaluator:
         for done, stage in enumerate(self._fitted):
             told = self._attempt(stage.run, values)
             if isinstance(told, str):
-                return Verdict(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())), shares)
+                return Evaluation(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())), shares)
             left = _share_left(list(told.values()))
             if left > 0.0:
                 left = (len(self._fitted) - done - 1 + left) / len(self._fitted)
-                return Verdict(BROKEN * (1.0 + 2.0 * left), shares)
+                return Evaluation(BROKEN * (1.0 + 2.0 * left), shares)
             recordings.update(told)
             for place, aim in stage.aims.items():
                 residuals.append(aim.residuals(recordings))
                 shares[place] = np.square(residuals[-1]).sum()
                 if not np.isfinite(shares[place]):
-                    return Verdict(BROKEN * 3.0, shares)
+                    return Evaluation(BROKEN * 3.0, shares)
             if np.nansum(shares) > bound:
-                return Verdict(min(float(np.nansum(shares)), BROKEN), shares)
-        return Verdict(min(float(shares.sum()), BROKEN), shares, np.concatenate(residuals))
+                return Evaluation(min(float(np.nansum(shares)), BROKEN), shares)
+        return Evaluation(min(float(shares.sum()), BROKEN), shares, np.concatenate(residuals))
 
 
 def _stages(runs: Iterable[Run], aims: Sequence[Aim]) -> list[Stage]:

@@ -11,11 +11,12 @@ from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.camera import Camera
+from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.recording import record_scenes
 
 Floats = NDArray[np.float64]
 
-RECORD_S = 2e-3
+RECORD_S, LONGEST_S = 2e-3, 3600.0
 ASTRAY = 20.0
 """How far astray a lost point is, in standard deviations of the noise [1]."""
 
@@ -57,9 +58,22 @@ def write_example_tracks(
         parts: Names of the body magnets from the head, and perhaps of the drive.
         blur: What tracking does to it.
         seed: Seed of the noise.
+
+    Raises:
+        ProblemError: A number that no film has.
+        ValueError: A duration that is no multiple of 2 ms.
     """
     path = path_of("path", path)
     blur = blur or Blur()
+    for name, number, low, high in (
+        ("duration_s", duration_s, RECORD_S, LONGEST_S),
+        ("metres_per_pixel", camera.metres_per_pixel, 1e-9, 1.0),
+        ("frames_per_second", camera.frames_per_second, 1e-3, 1e5),
+        ("noise_px", blur.noise_px, 0.0, 1e4),
+        ("seed", seed, 0, 2**63 - 1),
+    ):
+        if not low <= number <= high:
+            raise ProblemError(f"{name} is {number!r}; allowed: a number from {low:g} to {high:g}")
     run = record_scenes([scene], duration_s, RECORD_S, nodes=False)[0]
     places = np.concatenate([run.magnet_poses[..., :2], run.drive_positions[:, :1]], axis=1)
     frames = np.arange(int(duration_s * camera.frames_per_second + 1e-6) + 1)

@@ -126,9 +126,8 @@ def film(
     for magnet, part in enumerate(parts):
         if not part:
             continue
-        track = tracks.part(part)
         kept = (time_s >= 0.0) & (time_s <= duration_s + 1e-9)
-        kept &= (track[:, 2] >= least_likelihood) & np.isfinite(track).all(axis=1)
+        kept &= tracks.sure(part, least_likelihood)
         if not kept.any():
             raise ProblemError(
                 f"{tracks.file}: no frame of {part!r} lies between 0 and {duration_s:g} s of experiment "
@@ -136,7 +135,7 @@ def film(
             )
         times.append(time_s[kept])
         magnets.append(np.full(np.count_nonzero(kept), magnet))
-        points.append(camera.points_m(track[kept, :2]))
+        points.append(camera.points_m(tracks.part(part)[kept, :2]))
     return Film(
         experiment,
         camera,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.identification.evaluation import Verdict
+from magworm_gym.identification.evaluation import Evaluation
 
 Floats = NDArray[np.float64]
 
@@ -54,15 +54,15 @@ class Sensitivity:
         return [at for at, value in enumerate(self.singular_values) if value < 1.0 / WEAK]
 
 
-def sensitivity(verdicts: Callable[[Floats], list[Verdict]], best: Floats, noise: float) -> Sensitivity:
+def sensitivity(evaluations: Callable[[Floats], list[Evaluation]], best: Floats, noise: float) -> Sensitivity:
     """Differentiates the residuals by central differences with two step sizes.
 
     Args:
-        verdicts: Gives what becomes of points of the unit cube (C, P).
+        evaluations: Gives what becomes of points of the unit cube (C, P).
         best: The point (P,).
         noise: Standard deviation of a residual: 1 where the misfit is within the tolerances [1].
     """
-    jacobian, fine = (_jacobian(verdicts, best, step) for step in STEPS)
+    jacobian, fine = (_jacobian(evaluations, best, step) for step in STEPS)
     scale = np.maximum(np.linalg.norm(jacobian, axis=0), np.linalg.norm(fine, axis=0))
     disagreement = np.linalg.norm(jacobian - fine, axis=0) / np.maximum(scale, 1e-12)
     unknown = np.isnan(jacobian).any(axis=0)
@@ -78,12 +78,12 @@ def sensitivity(verdicts: Callable[[Floats], list[Verdict]], best: Floats, noise
     return Sensitivity(singular, directions, deviations, np.where(unknown, np.nan, alone), disagreement)
 
 
-def _jacobian(verdicts: Callable[[Floats], list[Verdict]], best: Floats, step: float) -> Floats:
+def _jacobian(evaluations: Callable[[Floats], list[Evaluation]], best: Floats, step: float) -> Floats:
     """Derivatives of the residuals (R, P), to one side where the other cannot be simulated, else NaN."""
     dimension = len(best)
     above = np.clip(best + step * np.eye(dimension), 0.0, 1.0)
     below = np.clip(best - step * np.eye(dimension), 0.0, 1.0)
-    *found, centre = (verdict.residuals for verdict in verdicts(np.vstack([above, below, best[None]])))
+    *found, centre = (each.residuals for each in evaluations(np.vstack([above, below, best[None]])))
     assert centre is not None, "the best candidate can be simulated"
     columns = []
     for at in range(dimension):

@@ -18,7 +18,8 @@ from magworm_gym.identification.identifiability import Sensitivity, sensitivity
 from magworm_gym.identification.ledger import Ledger
 from magworm_gym.identification.limit import CHI_SQUARE_95
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.problem import Problem, scene_numbers
+from magworm_gym.identification.paths import scene_numbers
+from magworm_gym.identification.problem import Problem
 from magworm_gym.identification.profiles import profiles
 from magworm_gym.identification.search import Evolution, NothingRunsError, Progress, search
 from magworm_gym.identification.targets import Outcome
@@ -114,7 +115,9 @@ def _fitted(
 ) -> Identification:
     evaluator = Evaluator(problem, threads)
     path = None if out is None else _open_folder(out, resume) / CANDIDATES
-    ledger = Ledger(path, evaluator.judged, len(problem.space), len(problem.fitted), problem.fingerprint)
+    ledger = Ledger(
+        path, evaluator.losses_and_shares, len(problem.space), len(problem.fitted), problem.fingerprint
+    )
     if resume and path is not None and path.exists():
         ledger.load()
     try:
@@ -170,7 +173,7 @@ def _sensitivity(problem: Problem, evaluator: Evaluator, units: Floats, known: F
     """Derivatives at the best of all candidates, against the noise that the threshold stands for."""
     loss = float(known.min())
     noise = np.sqrt(max(problem.limit(loss) - loss, LEAST_NOISE) / CHI_SQUARE_95)
-    return sensitivity(evaluator.verdicts, units[int(known.argmin())], float(noise))
+    return sensitivity(evaluator.evaluations, units[int(known.argmin())], float(noise))
 
 
 def _open_folder(out: Path, resume: bool) -> Path:

@@ -1,6 +1,5 @@
 """All candidates with their losses, kept on disk, so that a search can go on."""
 
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from magworm_gym.atomic_files import replace_file
 from magworm_gym.identification.mistake import ProblemError
 
 Floats = NDArray[np.float64]
-Judged = Callable[[Floats, Floats], tuple[Floats, Floats]]
+LossesAndShares = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 SAME = 1e-6
 """Distance in the unit cube up to which a candidate is the one that was kept [1]."""
@@ -25,7 +24,7 @@ class Ledger:
 
     Args:
         path: The file, numpy's npz, written anew after each question; None keeps nothing.
-        judged: Gives losses (C,) of points of the unit cube (C, P), exact up to bounds (C,), and shares of
+        ask: Gives losses (C,) of points of the unit cube (C, P), exact up to bounds (C,), and shares of
             the aims (C, A).
         dimension: Number of parameters P.
         aims: Number of aims A that share the loss.
@@ -33,9 +32,9 @@ class Ledger:
     """
 
     def __init__(
-        self, path: Path | None, judged: Judged, dimension: int, aims: int, fingerprint: str
+        self, path: Path | None, ask: LossesAndShares, dimension: int, aims: int, fingerprint: str
     ) -> None:
-        self._path, self._ask, self._fingerprint = path, judged, fingerprint
+        self._path, self._ask, self._fingerprint = path, ask, fingerprint
         self._units, self._losses, self._shares = np.empty((0, dimension)), np.empty(0), np.empty((0, aims))
         self._used = 0
 
@@ -47,10 +46,13 @@ class Ledger:
         """
         assert self._path is not None
         try:
-            with np.load(self._path) as kept:
+            with self._path.open("rb") as file, np.load(file) as kept:
                 fingerprint = str(kept["fingerprint"])
                 units, losses, shares = kept["units"], kept["losses"], kept["shares"]
-        except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+            sizes = (len(losses), units.shape[1]), (len(losses), shares.shape[1])
+            if (units.shape, shares.shape, losses.ndim) != (*sizes, 1):
+                raise ValueError("sizes differ")
+        except Exception as error:  # what damaged bytes make zipfile and NumPy raise has no end
             raise ProblemError(
                 f"{self._path} cannot be read; allowed: the file of a run that was stopped"
             ) from error

@@ -8,16 +8,17 @@ from typing import Any
 from magworm_gym._magworm import Scene
 from magworm_gym.identification.camera import START, WHOLE, Camera
 from magworm_gym.identification.deeplabcut import Tracks, read_deeplabcut
-from magworm_gym.identification.drive_motion import drive_from_film, read_drive
+from magworm_gym.identification.drive_motion import drive_from_film, drive_from_stage, read_stage
 from magworm_gym.identification.filmed import Film, film
 from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.identification.plain_check import check_at_rest, check_frames, start_places
 from magworm_gym.identification.quantities import MEASURES, Quantity
 from magworm_gym.identification.table import Table
 from magworm_gym.identification.targets import Aim, Comparison, Target
-from magworm_gym.recording import record_scenes
 
 DEFAULT_TOLERANCE_PX = 1.5
 DEFAULT_INDEPENDENT_S = 0.1
+SHORTEST_S, LONGEST_S = 0.01, 3600.0
 
 
 def read_targets(experiment: Table, name: str, magnets: int) -> list[Aim]:
@@ -88,7 +89,7 @@ def _measured(table: Table, key: str, magnets: Mapping[str, int]) -> tuple[str, 
 
 def read_film(
     experiment: Table, name: str, scene: Scene, folder: Path
-) -> tuple[Film | None, dict[str, Any] | None, float]:
+) -> tuple[Film | None, dict[str, Any] | None, float, list[str]]:
     """Takes ``tracks``, ``drive`` and ``duration_s`` of an experiment.
 
     Args:
@@ -98,20 +99,23 @@ def read_film(
         folder: Folder of the files.
 
     Returns:
-        The film, the drive's motion as it was measured, each None where there is none, and the duration
-        [s]: that of the tracks where it is not given.
+        The film, the drive's motion as it was measured, each None where there is none, the duration [s]:
+        that of the tracks where it is not given, and what there is to say of them.
 
     Raises:
         ProblemError: A value that is not allowed, or a mistake in a file.
     """
     if not experiment.has("tracks"):
-        motion = None
-        if experiment.has("drive"):
-            motion = _drive_file(Table(experiment.take("drive"), experiment.place("drive")), folder)
-        return None, motion, experiment.number("duration_s", low=1e-4, high=3600.0)
+        duration_s = experiment.number("duration_s", low=1e-4, high=LONGEST_S)
+        if not experiment.has("drive"):
+            return None, None, duration_s, []
+        drive = Table(experiment.take("drive"), experiment.place("drive"))
+        stage, remarks = _drive_file(drive, folder, duration_s)
+        return None, stage, duration_s, remarks
     table = Table(experiment.take("tracks"), experiment.place("tracks"))
     camera = _camera(table)
-    tracks = read_deeplabcut(folder / table.text("file"))
+    individual = table.text("individual") if table.has("individual") else None
+    tracks = read_deeplabcut(folder / table.text("file"), individual)
     parts = _parts(table, scene.magnets)
     likelihood = table.number("least_likelihood", 0.6, low=0.0, high=1.0)
     duration_s = _duration(experiment, tracks, camera)
@@ -128,14 +132,17 @@ def read_film(
         independent_s=table.number("independent_s", DEFAULT_INDEPENDENT_S, low=1e-6, high=1e3),
     )
     table.done()
-    motion = None
+    check_frames(tracks, camera)
+    remarks = check_at_rest(filmed, scene)
+    motion: dict[str, Any] | None = None
     if experiment.has("drive"):
         drive = Table(experiment.take("drive"), experiment.place("drive"))
         if drive.has("part"):
-            motion = _drive_part(drive, tracks, camera, parts, scene, likelihood)
+            motion = _drive_part(drive, tracks, camera, parts, scene, likelihood, duration_s)
         else:
-            motion = _drive_file(drive, folder)
-    return filmed, motion, duration_s
+            motion, more = _drive_file(drive, folder, duration_s)
+            remarks += more
+    return filmed, motion, duration_s, remarks
 
 
 def _camera(table: Table) -> Camera:
@@ -168,35 +175,53 @@ def _parts(table: Table, magnets: int) -> list[str]:
             parts,
             f'the body part of each of the {magnets} magnets from the head, "" for one that was not tracked',
         )
+    if twice := [part for part in parts if part and parts.count(part) > 1]:
+        raise table.refusal("magnets", parts, f"each body part once, and {twice[0]!r} is there twice")
     return parts
 
 
 def _duration(experiment: Table, tracks: Tracks, camera: Camera) -> float:
     """The duration given, or until the last frame, rounded down to 0.01 s."""
     if experiment.has("duration_s"):
-        return experiment.number("duration_s", low=1e-4, high=3600.0)
+        return experiment.number("duration_s", low=1e-4, high=LONGEST_S)
     experiment.take("duration_s")
     last = float(camera.time_s(tracks.frames)[-1])
-    if last < 0.01:
+    if not SHORTEST_S <= last <= LONGEST_S:
         raise ProblemError(
-            f"{experiment.where}: the tracks end at {last:g} s after start_s = {camera.start_s:g}; "
-            "allowed: at least 0.01 s"
+            f"{experiment.where}: the tracks end at {last:g} s after start_s = {camera.start_s:g}, with "
+            f"frame {tracks.frames[-1]} and frames_per_second = {camera.frames_per_second:g}; allowed: "
+            f"{SHORTEST_S:g} to {LONGEST_S:g} s"
         )
     return floor(last * 100.0 + 1e-6) / 100.0
 
 
-def _drive_file(table: Table, folder: Path) -> dict[str, Any]:
+def _drive_file(table: Table, folder: Path, duration_s: float) -> tuple[dict[str, Any], list[str]]:
     path, start_s = folder / table.text("file"), table.number("start_s", 0.0)
     table.done()
-    return read_drive(path, start_s)
+    return drive_from_stage(read_stage(path), start_s, duration_s)
 
 
 def _drive_part(
-    table: Table, tracks: Tracks, camera: Camera, parts: list[str], scene: Scene, likelihood: float
+    table: Table,
+    tracks: Tracks,
+    camera: Camera,
+    parts: list[str],
+    scene: Scene,
+    likelihood: float,
+    duration_s: float,
 ) -> dict[str, Any]:
     part = table.text("part")
     height_m = table.number("height_m", low=-1.0, high=1.0) if table.has("height_m") else None
     table.done()
-    step_s = scene.control_step_s
-    start = record_scenes([scene], step_s, step_s, nodes=False)[0].magnet_poses[0, :, :2]
-    return drive_from_film(tracks, camera, part, parts, start, least_likelihood=likelihood, height_m=height_m)
+    if part in parts:
+        raise table.refusal("part", part, "a body part that is none of the magnets")
+    return drive_from_film(
+        tracks,
+        camera,
+        part,
+        parts,
+        start_places(scene),
+        duration_s=duration_s,
+        least_likelihood=likelihood,
+        height_m=height_m,
+    )

@@ -4,6 +4,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,17 @@ from magworm_gym.identification.limit import threshold
 from magworm_gym.identification.measurements import read_comparison, read_film, read_targets
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.parameters import ParameterSpace, read_parameter
+from magworm_gym.identification.paths import dotted, scene_numbers, scene_paths, whole_numbers
+from magworm_gym.identification.plain_check import doubts
 from magworm_gym.identification.settings import SearchSettings, read_settings
 from magworm_gym.identification.sweep import Sweep
 from magworm_gym.identification.sweep_file import read_sweeps
-from magworm_gym.identification.table import Table, parse_toml
+from magworm_gym.identification.table import Table
 from magworm_gym.identification.targets import Aim
 from magworm_gym.scene import load_scene
+
+BOUNDS = frozenset({"low", "high"})
+"""Entries of a parameter, by which it is told from a table of some."""
 
 LEAST_SAMPLE_S = 2e-3
 """Robots are looked at this often or, with longer solver steps, after each of them [s]."""
@@ -44,6 +50,7 @@ class Problem:
         sample_s: Time between two instants of a recording [s].
         settings: Settings of the search.
         fingerprint: Changes with anything that changes the result.
+        remarks: What there is to say of the files that were read, in sentences.
     """
 
     base_name: str
@@ -57,6 +64,12 @@ class Problem:
     sample_s: float
     settings: SearchSettings
     fingerprint: str
+    remarks: tuple[str, ...] = ()
+
+    @cached_property
+    def noticed(self) -> tuple[str, ...]:
+        """What may be a mistake, in sentences: remarks, and what a run of the scene as it is shows."""
+        return (*self.remarks, *doubts(self))
 
     @property
     def measurements(self) -> float:
@@ -98,10 +111,10 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     """
     table = Table(entries, "")
     name, scene = _base(table, folder)
-    fixed = table.mapping("values")
+    fixed = scene_paths(table.mapping("values"), scene)
     base = edited_scene(scene, fixed, "values")
     space = _space(table)
-    experiments, aims = _experiments(table, base, space, folder)
+    experiments, aims, remarks = _experiments(table, base, space, folder)
     sweeps = _sweeps(table, base, {experiment.name for experiment in experiments})
     if not experiments and not sweeps:
         raise ProblemError("experiment is missing; allowed: at least one [[experiment]] or one [[sweep]]")
@@ -128,6 +141,7 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
         sample_s=sample_s,
         settings=settings,
         fingerprint=_fingerprint(entries, base, runs, aims),
+        remarks=tuple(remarks),
     )
 
 
@@ -141,7 +155,7 @@ def _base(table: Table, folder: Path) -> tuple[str, Scene]:
 
 
 def _space(table: Table) -> ParameterSpace:
-    entries = table.mapping("parameters")
+    entries = dotted(table.mapping("parameters"), lambda _, value: not BOUNDS & value.keys())
     return ParameterSpace(
         [read_parameter(path, Table(entry, f"parameters.{path}")) for path, entry in entries.items()]
     )
@@ -149,18 +163,20 @@ def _space(table: Table) -> ParameterSpace:
 
 def _experiments(
     table: Table, base: Scene, space: ParameterSpace, folder: Path
-) -> tuple[list[Experiment], list[Aim]]:
+) -> tuple[list[Experiment], list[Aim], list[str]]:
     experiments: list[Experiment] = []
     aims: list[Aim] = []
+    remarks: list[str] = []
     for each in table.tables("experiment"):
         name = each.text("name", f"experiment-{len(experiments) + 1}")
         if name in {experiment.name for experiment in experiments} or "." in name:
             raise each.refusal("name", name, "a name without a dot that no other experiment has")
-        values = each.mapping("values")
+        values = scene_paths(each.mapping("values"), base)
         scene = edited_scene(base, values, each.place("values"))
         if not scene.magnets:
             raise ProblemError(f"{each.where}: the scene has no body magnets; allowed: a scene with some")
-        filmed, motion, duration_s = read_film(each, name, scene, folder)
+        filmed, motion, duration_s, more = read_film(each, name, scene, folder)
+        remarks += more
         if motion is not None:
             scene = edited_scene(scene, {"drive.motion": motion}, each.place("drive"))
             values["drive.motion"] = motion
@@ -172,7 +188,7 @@ def _experiments(
                 '"drive.motion" of kind "constant" or "waypoints", or drive'
             )
         experiments.append(Experiment(name, duration_s, scene, _known(values, scene, space)))
-    return experiments, aims
+    return experiments, aims, remarks
 
 
 def _known(values: dict[str, Any], scene: Scene, space: ParameterSpace) -> frozenset[str]:
@@ -212,7 +228,7 @@ def _claims(table: Table, sweeps: list[Sweep]) -> list[Claim]:
 
 def _start(table: Table) -> dict[str, float]:
     """Field values of a known robot."""
-    values = table.mapping("values")
+    values = dotted(table.mapping("values"), lambda *_: True)
     table.done()
     for path, value in values.items():
         if isinstance(value, bool) or not isinstance(value, int | float):
@@ -242,7 +258,7 @@ def _whole(ratio: float) -> bool:
 
 
 def _check_paths(space: ParameterSpace, runs: list[Run]) -> None:
-    """Refuses a parameter that is no number of the scene or that every run sets itself."""
+    """Refuses a parameter that is no number of the scene, a whole one, or that every run sets itself."""
     for parameter in space.parameters:
         fitted = [run for run in runs if parameter.path not in run.known]
         if not fitted:
@@ -257,6 +273,11 @@ def _check_paths(space: ParameterSpace, runs: list[Run]) -> None:
                     "ratio of it; allowed: both or none of them"
                 )
         for run in fitted:
+            if parameter.path in whole_numbers(run.scene):
+                raise ProblemError(
+                    f"parameters.{parameter.path} is a whole number and cannot be fitted; allowed: "
+                    "a number that may have decimals (give this one by values or --set, and fit the others)"
+                )
             if _scene_value(run.scene, parameter.path) is None:
                 raise ProblemError(
                     f"parameters.{parameter.path} is no number in the scene of experiment "
@@ -266,21 +287,6 @@ def _check_paths(space: ParameterSpace, runs: list[Run]) -> None:
 
 def _scene_value(scene: Scene, path: str) -> float | None:
     return scene_numbers(scene).get(path)
-
-
-def scene_numbers(scene: Scene) -> dict[str, float]:
-    """All numbers of a scene: dotted path → value in the field's unit."""
-    numbers: dict[str, float] = {}
-    waiting: list[tuple[str, Any]] = [("", parse_toml(scene.to_toml(), "scene"))]
-    while waiting:
-        place, value = waiting.pop()
-        if isinstance(value, dict):
-            waiting += [(f"{place}.{key}" if place else key, each) for key, each in value.items()]
-        elif isinstance(value, list):
-            waiting += [(f"{place}[{index}]", each) for index, each in enumerate(value)]
-        elif isinstance(value, int | float) and not isinstance(value, bool):
-            numbers[place] = float(value)
-    return numbers
 
 
 def _fingerprint(entries: Mapping[str, Any], base: Scene, runs: list[Run], aims: list[Aim]) -> str:

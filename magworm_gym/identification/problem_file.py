@@ -8,7 +8,8 @@ from typing import Any
 from magworm_gym.arguments import path_of
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.problem import Problem, make_problem
-from magworm_gym.identification.table import parse_toml, read_text
+from magworm_gym.identification.sheet import read_text
+from magworm_gym.identification.table import parse_toml
 
 MOST_FILES = 8
 """Most files that are each like the next."""
@@ -57,10 +58,13 @@ def _entries(path: Path, most: int = MOST_FILES - 1) -> dict[str, Any]:
 
 def _merged(entries: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
     both = {
-        key: {**entries[key], **value} for key, value in others.items() if _tables(entries.get(key), value)
+        key: _merged(entries[key], value)
+        for key, value in others.items()
+        if _is_table(entries.get(key)) and _is_table(value) and "." not in key
     }
     return {**entries, **others, **both}
 
 
-def _tables(*values: object) -> bool:
-    return all(isinstance(value, dict) for value in values)
+def _is_table(value: object) -> bool:
+    """Whether something is a table of paths, and no value that is a table."""
+    return isinstance(value, dict) and not {"kind", "low", "high"} & value.keys()

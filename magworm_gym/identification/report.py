@@ -63,6 +63,7 @@ def as_markdown(found: Identification) -> str:
             "",
             *_summary(found),
             "",
+            *_noticed(found),
             "## Parameters",
             "",
             *_parameter_table(found),
@@ -121,6 +122,12 @@ def _summary(found: Identification) -> list[str]:
             "model lacks something, or a bound keeps it from the data.",
         ]
     return said
+
+
+def _noticed(found: Identification) -> list[str]:
+    """What may be a mistake in the problem."""
+    noticed = found.problem.noticed
+    return ["## Please check", "", *(f"- {remark}" for remark in noticed), ""] if noticed else []
 
 
 def _parameter_table(found: Identification) -> list[str]:
@@ -280,6 +287,7 @@ def as_json(found: Identification) -> dict[str, Any]:
         "misfit": found.misfit,
         "measurements": found.problem.measurements,
         "candidates": found.candidates,
+        "noticed": list(found.problem.noticed),
         "simulated_s_at_most": found.candidates * found.problem.simulated_s,
         "values": found.values,
         "not_in_scene": list(found.left_out),

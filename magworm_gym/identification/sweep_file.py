@@ -8,6 +8,7 @@ from typing import Any
 from magworm_gym._magworm import Batch, Scene
 from magworm_gym.identification.experiment import edited_scene
 from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.identification.paths import scene_paths
 from magworm_gym.identification.sweep import Passes, Sweep
 from magworm_gym.identification.table import Table
 
@@ -36,7 +37,7 @@ def read_sweeps(table: Table, base: Scene) -> list[Sweep]:
     names = [name] if robots == [{}] else [f"{name}-{at + 1}" for at in range(len(robots))]
     setting = _setting(table)
     sweeps = [
-        _sweep(table, each, base, {**shared, **robot}, setting)
+        _sweep(table, each, base, {**scene_paths(shared, base), **scene_paths(robot, base)}, setting)
         for each, robot in zip(names, robots, strict=True)
     ]
     table.done()

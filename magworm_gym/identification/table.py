@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from magworm_gym.identification.mistake import ProblemError
@@ -32,20 +31,6 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
         return dict(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         raise ProblemError(f"{source} is not TOML: {error}") from error
-
-
-def read_text(path: Path, what: str) -> str:
-    """Reads a text file.
-
-    Raises:
-        ProblemError: It is missing or no text.
-    """
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ProblemError(f"{what} {path} is no text file in UTF-8") from error
-    except OSError as error:
-        raise ProblemError(f"{what} {path} cannot be read: {error.strerror}") from error
 
 
 class Table:

@@ -10,7 +10,8 @@ from pathlib import Path
 from magworm_gym.cli.flags import add_set, set_values
 from magworm_gym.identification import read_problem
 from magworm_gym.identification.evaluation import Evaluator
-from magworm_gym.identification.problem import Problem, scene_numbers
+from magworm_gym.identification.paths import scene_numbers
+from magworm_gym.identification.problem import Problem
 from magworm_gym.scene import load_scene
 
 
