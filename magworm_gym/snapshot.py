@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-MAGIC = b"MAGWENV2"
-ARCHIVE = b"PK\x03\x04"
-"""What states of the layout before began with: NumPy's archives."""
+MAGIC = b"MAGWENV3"
+OLDER = (b"PK\x03\x04", b"MAGWENV2")
+"""What states of older layouts began with."""
 WORD = 8
 HEAD = 3 * WORD
 """Magic, checksum of all that follows it, length of the list of arrays."""
@@ -79,8 +79,8 @@ def _read(state: bytes) -> tuple[list[tuple[str, str, list[int]]], bytes]:
     if not isinstance(state, (bytes, bytearray, memoryview)):
         raise ValueError(f"the state is a {type(state).__name__}; allowed: bytes that get_state() returned")
     state = bytes(state)
-    if state.startswith(ARCHIVE):
-        raise ValueError("the state has the layout of an older version, a NumPy archive; allowed: MAGWENV2")
+    if state.startswith(OLDER):
+        raise ValueError("the state has the layout of an older version; allowed: MAGWENV3")
     if len(state) < HEAD or not state.startswith(MAGIC):
         raise ValueError("the state cannot be read: it is not one that get_state() returned")
     body = state[2 * WORD :]

@@ -3,7 +3,7 @@
 import multiprocessing
 import pickle
 from collections.abc import Callable
-from copy import deepcopy
+from copy import copy, deepcopy
 from typing import Any
 
 import gymnasium
@@ -42,24 +42,35 @@ def by_state(env: MagWormVectorEnv) -> MagWormVectorEnv:
 
 
 def by_pickle(env: MagWormVectorEnv) -> MagWormVectorEnv:
-    copy: MagWormVectorEnv = pickle.loads(pickle.dumps(env))
-    return copy
+    other: MagWormVectorEnv = pickle.loads(pickle.dumps(env))
+    return other
+
+
+def out_of_band(env: Any) -> Any:
+    """As dask and joblib send it: arrays beside the pickle, in memory that nobody may write into."""
+    buffers: list[pickle.PickleBuffer] = []
+    pickled = pickle.dumps(env, protocol=5, buffer_callback=buffers.append)
+    assert buffers
+    return pickle.loads(pickled, buffers=[bytes(buffer.raw()) for buffer in buffers])
+
+
+COPIED = [by_state, by_pickle, out_of_band, deepcopy, copy]
 
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
-@pytest.mark.parametrize("copied", [by_state, by_pickle, deepcopy])
+@pytest.mark.parametrize("copied", COPIED)
 def test_a_copy_goes_on_bit_for_bit(copied: Callable[[Any], Any], mode: str) -> None:
     env = started(autoreset_mode=mode)
-    copy = copied(env)
-    assert data_equivalence(play(env, 12, seed=1), play(copy, 12, seed=1), exact=True)
-    assert data_equivalence(env.reset(), copy.reset(), exact=True)
+    other = copied(env)
+    assert data_equivalence(play(env, 12, seed=1), play(other, 12, seed=1), exact=True)
+    assert data_equivalence(env.reset(), other.reset(), exact=True)
 
 
-@pytest.mark.parametrize("copied", [by_state, by_pickle, deepcopy])
+@pytest.mark.parametrize("copied", COPIED)
 def test_a_copy_before_the_first_reset(copied: Callable[[Any], Any]) -> None:
     env = crawl()
-    copy = copied(env)
-    assert data_equivalence(env.reset(), copy.reset(), exact=True)
+    other = copied(env)
+    assert data_equivalence(env.reset(), other.reset(), exact=True)
 
 
 def test_going_back_to_a_state() -> None:
@@ -81,12 +92,35 @@ def test_the_single_environment_is_copied(seed: int | None) -> None:
     env = MagWormEnv(max_episode_steps=4)
     fresh = pickle.loads(pickle.dumps(env))
     assert data_equivalence(env.reset(seed=seed), fresh.reset(seed=seed), exact=True)
-    copies = [pickle.loads(pickle.dumps(env)), deepcopy(env), MagWormEnv(max_episode_steps=4)]
-    copies[2].set_state(env.get_state())
+    copies = [made(env) for made in COPIED[1:]] + [MagWormEnv(max_episode_steps=4)]
+    copies[-1].set_state(env.get_state())
     action = np.array([0.3, 0.5, 1.0])
     expected = [*(env.step(action) for _ in range(4)), env.reset()]
-    for copy in copies:
-        assert data_equivalence(expected, [*(copy.step(action) for _ in range(4)), copy.reset()], exact=True)
+    for other in copies:
+        assert data_equivalence(
+            expected, [*(other.step(action) for _ in range(4)), other.reset()], exact=True
+        )
+
+
+@pytest.mark.parametrize("task", ["turn", "reach"])
+def test_tasks_go_on_out_of_band(task: str) -> None:
+    env = MagWormVectorEnv(2, max_episode_steps=3, threads=1, task=task)
+    env.reset(seed=0)
+    other = out_of_band(env)
+    for actions in np.random.default_rng(0).uniform(-1, 1, (6, *env.action_space.shape)):
+        assert data_equivalence(env.step(actions), other.step(actions), exact=True)
+
+
+def test_what_is_given_may_be_read_only() -> None:
+    env, twin = crawl(), crawl()
+    mask, mass, actions = np.array([True, False, True]), np.ones(3), np.full((3, 3), 0.5)
+    for array in (mask, mass, actions):
+        array.flags.writeable = False
+    for each in (env, twin):
+        each.reset(seed=0)
+        each.reset(options={"reset_mask": mask, "parameters": {"mass": mass}, "start": {"x_m": mass}})
+    for _ in range(7):
+        assert data_equivalence(env.step(actions), twin.step(actions.copy()), exact=True)
 
 
 def bad_states() -> dict[str, Any]:

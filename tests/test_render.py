@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from magworm_gym import MagWormVectorEnv
 from magworm_gym.baselines import Recording
 from magworm_gym.render import SideView
 from magworm_gym.render.animation import stacked, write_gif, write_mp4
@@ -159,6 +160,20 @@ def test_window_shows_a_frame_without_a_screen(monkeypatch: pytest.MonkeyPatch) 
     side_view.show(draw(side_view))
     side_view.close()
     side_view.close()
+
+
+def test_windows_live_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pygame")
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    first, second = (MagWormVectorEnv(1, threads=1, render_mode="human") for _ in range(2))
+    for env in (first, second):
+        env.reset(seed=0)
+    first.close()
+    second.step(np.zeros((1, 3)))
+    first.reset(seed=0)  # opens another
+    second.close()
+    first.step(np.zeros((1, 3)))
+    first.close()
 
 
 def test_missing_pygame_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

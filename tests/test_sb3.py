@@ -1,5 +1,7 @@
 """The adapter for Stable-Baselines3."""
 
+import pickle
+from copy import copy, deepcopy
 from typing import Any
 
 import numpy as np
@@ -15,10 +17,18 @@ from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecNormalize
 
+import magworm_gym.sb3
 from magworm_gym import MagWormEnv
 from magworm_gym.sb3 import MagWormSB3VecEnv
 
 torch.set_num_threads(1)
+
+
+def out_of_band(env: Any) -> Any:
+    """A pickle with arrays beside it, in memory that nobody may write into."""
+    buffers: list[pickle.PickleBuffer] = []
+    pickled = pickle.dumps(env, protocol=5, buffer_callback=buffers.append)
+    return pickle.loads(pickled, buffers=[bytes(buffer.raw()) for buffer in buffers])
 
 
 def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormSB3VecEnv:
@@ -107,6 +117,88 @@ def test_attributes_and_methods() -> None:
     assert env.env_method("get_state", indices=[0]) == [env.worms.get_state()]
     assert env.env_is_wrapped(Monitor) == [True] * 3
     assert env.env_is_wrapped(VecNormalize, indices=0) == [False]  # type: ignore[arg-type]
+
+
+def test_env_method_resets_the_environments_that_it_names() -> None:
+    native, dummy = crawl(), DummyVecEnv(monitored())
+    actions = random_actions(9)
+    for each in (native, dummy):
+        each.seed(3)
+        each.reset()
+        for rows in actions[:3]:
+            each.step(rows)
+    for arguments in ({"seed": 8}, {"options": {"removed": [1]}}, {}):
+        one, other = (each.env_method("reset", indices=[2, 0], **arguments) for each in (native, dummy))
+        assert data_equivalence(one, other, exact=True)
+    for rows in actions[3:]:
+        one, other = native.step(rows), dummy.step(rows)
+        for part in range(3):
+            np.testing.assert_array_equal(one[part], other[part])
+        for done, info, expected in zip(one[2], one[3], other[3], strict=True):
+            assert not done or data_equivalence(untimed(info), untimed(expected))
+
+
+@pytest.mark.parametrize("method", ["step", "set_state", "close"])
+def test_methods_that_change_all_are_not_called_for_some(method: str) -> None:
+    env = crawl()
+    env.reset()
+    before = env.get_state()
+    with pytest.raises(ValueError, match=f"{method} belongs to the whole batch"):
+        env.env_method(method, np.zeros((3, 3)), indices=[1])
+    assert env.get_state() == before
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"removed": [7]},
+        [{"removed": [0]}, {}, {"removed": [7]}],
+        [{"removed": [0]}, {}, {"parameters": {"mass": -1.0}}],
+        [{"removed": [0]}, {"reset_mask": np.ones(1, np.bool_)}, {}],
+    ],
+)
+def test_a_refused_option_changes_nothing(options: Any) -> None:
+    env = crawl()
+    env.seed(4)
+    env.reset()
+    env.step(random_actions(1)[0])
+    before, told = env.get_state(), deepcopy(env.reset_infos)
+    env.set_options(options)
+    env.seed(9)
+    with pytest.raises(ValueError, match="allowed"):
+        env.reset()
+    assert env.get_state() == before and env.reset_infos == told
+    env.set_options()
+    env.reset()
+    assert [info["seed"] for info in env.reset_infos] == [9, 10, 11], "seeds wait for a reset that is done"
+
+
+def test_a_mask_resets_some_and_their_statistics() -> None:
+    env = crawl()
+    env.reset()
+    env.step(random_actions(1)[0])
+    env.set_options({"reset_mask": np.array([True, False, False])})
+    env.reset()
+    for rows in random_actions(4):
+        *_, infos = env.step(rows)
+    assert [info.get("episode", {}).get("l") for info in infos] == [None, 5, 5]
+
+
+@pytest.mark.parametrize("copied", [copy, deepcopy, out_of_band])
+def test_copies_go_on_bit_for_bit(copied: Any) -> None:
+    env = crawl(randomise={"parameters": 0.1})
+    env.reset()
+    for rows in random_actions(3):
+        env.step(rows)
+    other = copied(env)
+    for rows in random_actions(9):
+        for one, again in zip(env.step(rows)[:3], other.step(rows)[:3], strict=True):
+            np.testing.assert_array_equal(one, again)
+
+
+def test_the_name_that_it_had_before_warns() -> None:
+    with pytest.warns(DeprecationWarning, match="MagWormSB3VecEnv"):
+        assert magworm_gym.sb3.MagWormVecEnv is MagWormSB3VecEnv
 
 
 def test_a_state_goes_on_bit_for_bit() -> None:

@@ -107,5 +107,6 @@ def test_numbers_that_no_environment_has_are_named() -> None:
 
 
 def test_a_state_of_an_older_layout_is_refused_by_name() -> None:
-    with pytest.raises(ValueError, match="layout of an older version"):
-        begun(crawl).set_state(b"PK\x03\x04 and so on")
+    for older in (b"PK\x03\x04 and so on", b"MAGWENV2" + bytes(99)):
+        with pytest.raises(ValueError, match="layout of an older version"):
+            begun(crawl).set_state(older)
