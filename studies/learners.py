@@ -19,10 +19,9 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 from magworm_gym import load_scene
 from magworm_gym.learning.compare.goal_trials import FIRST_SEED, fly
-from magworm_gym.learning.settings import SCENES
 from magworm_gym.sb3 import MagWormSB3VecEnv
 
-TASK, SCENE = "turn", SCENES / "turn-3-pair.toml"
+TASK, SCENE = "turn", "turn-3-pair"
 GOALS_DEG = np.array([30.0, -30.0, 90.0, -90.0])
 STARTS = 4
 MEASURE_S = 10.0
@@ -174,7 +173,7 @@ def main() -> None:
             print(lines[-1], flush=True)
     text = (
         "# Learning algorithms on turning\n\n"
-        "`MagWorm/Turn-v0` with two drive magnets (`training/scenes/turn-3-pair.toml`), each algorithm for "
+        "`MagWorm/Turn-v1`, each algorithm for "
         f"{flags.seconds:.0f} s of processor time, network updates included, in one process with "
         "one thread: wall-clock time on an idle core, and fair on a busy one. Written by "
         "`studies/learners.py`. Then the mean action over goals of ±30° and ±90° from "

@@ -21,7 +21,7 @@ from magworm_gym.learning.compare.goal_report import table, verdict
 from magworm_gym.learning.compare.goal_search import SearchSize, score_of, searched
 from magworm_gym.learning.compare.goal_trials import Flight, fly
 from magworm_gym.learning.compare.pilots import FAMILIES, PARK, Cycle, Learned, Steered
-from magworm_gym.learning.settings import CONFIGS, SCENES, read_settings
+from magworm_gym.learning.settings import CONFIGS, read_settings
 
 TINY = """
 [training]
@@ -139,14 +139,14 @@ def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr(demonstration, "EPOCHS", 300)
     config, out = tmp_path / "taught.toml", tmp_path / "run"
     config.write_text(
-        "[run]\nscene = 'turn-3-pair.toml'\nnum_envs = 8\nsteps = 8\nseeds = [0]\nepisode_steps = 60\n"
+        "[run]\nscene = 'turn-3-pair'\nnum_envs = 8\nsteps = 8\nseeds = [0]\nepisode_steps = 60\n"
         "[policy]\nnormalise = true\nlog_std_init = -1.0\nteacher = 'pair'\n"
         "[learning_rate]\nstart = 1e-9\nend = 1e-9\n[algorithm]\nn_steps = 8\n"
     )
     train.main(["turn", "--config", str(config), "--out", str(out)])
     taught = json.loads((out / "seed-0" / "taught.json").read_text())
     assert taught["steps"] == 120 * 8 + 8 * 10  # shown, and searched: eight trials of ten steps
-    scene = load_scene(SCENES / "turn-3-pair.toml")
+    scene = Scene.preset("turn-3-pair")
     family = FAMILIES["pair"]
     found = searched(scene, "turn", family, SHORT, 0)
     teacher = Steered([family.cycle(np.array(found["parameters"]), scene.stage_limits or {})])
@@ -174,7 +174,7 @@ def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: p
 def test_teachers_that_do_not_fit_are_named(task: str, extra: str, sentence: str, tmp_path: Path) -> None:
     config = tmp_path / "taught.toml"
     config.write_text(
-        "[run]\nscene = 'turn-3-pair.toml'\nnum_envs = 4\nsteps = 8\nseeds = [0]\n"
+        "[run]\nscene = 'turn-3-pair'\nnum_envs = 4\nsteps = 8\nseeds = [0]\n"
         f"[policy]\n{extra}\n[algorithm]\nn_steps = 8\n"
     )
     with pytest.raises(UsageError, match=sentence):
@@ -212,7 +212,7 @@ def test_each_task_has_its_settings_and_scene() -> None:
     for task in ("turn", "reach"):
         settings = read_settings(CONFIGS / f"{task}-ppo.toml", {})
         assert settings.task == task and len(settings.seeds) >= 5
-        single = load_scene(SCENES / settings.scene).with_values(
+        single = load_scene(settings.scene).with_values(
             {"name": "turn-3", **dict(FAMILIES["misaligned"].edits)}
         )
         assert single == Scene.preset("turn-3")

@@ -42,8 +42,8 @@ OTHER_FITS = 8
 
 PRESETS = {
     "paper-joint": [
-        *(SCENES / f"{name}.toml" for name in ("paper-3", "paper-4", "paper-5", "turn-3", "belt-125")),
-        ROOT / "training/scenes/turn-3-pair.toml",
+        SCENES / f"{name}.toml"
+        for name in ("paper-3", "paper-4", "paper-5", "turn-3", "turn-3-pair", "belt-125")
     ],
     "paper-3-simulation": [SCENES / "paper-3-simulation.toml"],
 }

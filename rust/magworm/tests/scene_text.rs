@@ -27,7 +27,8 @@ fn presets_load_and_survive_toml() {
     assert_eq!(
         Scene::preset("paper-6").unwrap_err().to_string(),
         "there is no preset \"paper-6\"; presets: \
-         paper-3, paper-3-simulation, paper-4, paper-5, turn-3, cantilever, belt-125, incline-block"
+         paper-3, paper-3-simulation, paper-4, paper-5, turn-3, turn-3-pair, cantilever, belt-125, \
+         incline-block"
     );
 }
 

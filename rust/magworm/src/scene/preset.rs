@@ -4,12 +4,13 @@ use super::Scene;
 use super::error::{Problem, SceneError};
 
 /// Name and text of each preset.
-const TEXTS: [(&str, &str); 8] = [
+const TEXTS: [(&str, &str); 9] = [
     ("paper-3", include_str!("../../scenes/paper-3.toml")),
     ("paper-3-simulation", include_str!("../../scenes/paper-3-simulation.toml")),
     ("paper-4", include_str!("../../scenes/paper-4.toml")),
     ("paper-5", include_str!("../../scenes/paper-5.toml")),
     ("turn-3", include_str!("../../scenes/turn-3.toml")),
+    ("turn-3-pair", include_str!("../../scenes/turn-3-pair.toml")),
     ("cantilever", include_str!("../../scenes/cantilever.toml")),
     ("belt-125", include_str!("../../scenes/belt-125.toml")),
     ("incline-block", include_str!("../../scenes/incline-block.toml")),
