@@ -13,8 +13,7 @@ from pathlib import Path
 
 from blocks import write_or_check
 
-from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID, MagWormVectorEnv
-from magworm_gym.registration import ARGUMENTS
+from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID, MagWormVectorEnv, arguments_of
 from magworm_gym.spaces import AnyPart
 
 
@@ -44,7 +43,7 @@ def tables() -> str:
 
 
 def _environment(name: str) -> MagWormVectorEnv:
-    return MagWormVectorEnv(1, threads=1, **ARGUMENTS[name])
+    return MagWormVectorEnv(1, **arguments_of(name, threads=1))
 
 
 def _action(env: MagWormVectorEnv) -> list[str]:

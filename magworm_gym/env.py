@@ -19,20 +19,22 @@ from magworm_gym.infos import Infos, info_of
 from magworm_gym.randomise import AnyRandomise
 from magworm_gym.rollout import Rollout
 from magworm_gym.scene import AnyScene
+from magworm_gym.specified import Specified
+from magworm_gym.tasks import Task, TaskName
 from magworm_gym.vector_env import RENDER_MODES, Lanes, MagWormVectorEnv, RenderMode
 from magworm_gym.worlds import Observations
 
 
-class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
+class MagWormEnv(Specified, gymnasium.Env[Observations, NDArray[Any]]):
     """One worm above a driven magnet.
 
-    Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``, or ``Turn-v0``, ``Reach-v0``. Actions,
-    observations, rewards, seeds and options are those of
+    Gymnasium makes one with ``gymnasium.make("MagWorm/Crawl-v0")``, or ``Turn-v1``, ``Reach-v1``. Actions,
+    observations, rewards, starts, seeds and options are those of
     :class:`~magworm_gym.vector_env.MagWormVectorEnv`, without the leading axis;
     infos hold plain numbers and strings, without masks.
 
-    The time limit is the scene's. ``gymnasium.make(..., max_episode_steps=…)`` adds Gymnasium's own
-    limit on top: the sooner of the two ends an episode.
+    The time limit of the class is the scene's. That of an ID counts in ``gymnasium.make``, which takes
+    another as ``max_episode_steps`` and says once where the scene's differs.
 
     Args:
         scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the task's.
@@ -41,7 +43,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
             each reset and step.
         lanes: "scalar", or "wide" for SIMD, which cannot help one environment; equal bit for bit.
         threads: Most threads to use: one environment needs no more than 1.
-        task: "crawl", "turn" or "reach".
+        task: What is asked of the worm: "crawl", "turn", "reach", or a task such as ``Turn()``.
         randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
 
     Raises:
@@ -58,7 +60,7 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
         render_mode: RenderMode | None = None,
         lanes: Lanes = "scalar",
         threads: int | None = 1,
-        task: str = "crawl",
+        task: Task | TaskName = "crawl",
         randomise: AnyRandomise | None = None,
     ) -> None:
         self._worms = MagWormVectorEnv(
@@ -96,6 +98,11 @@ class MagWormEnv(gymnasium.Env[Observations, NDArray[Any]]):
     def scene(self) -> Scene:
         """The scene."""
         return self._worms.scene
+
+    @property
+    def task(self) -> Task:
+        """What is asked of the worm."""
+        return self._worms.task
 
     @property
     def max_episode_steps(self) -> int:

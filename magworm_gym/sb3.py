@@ -24,6 +24,7 @@ from magworm_gym.infos import Infos, info_of
 from magworm_gym.randomise import AnyRandomise
 from magworm_gym.reset_options import MASK, AnyOptions
 from magworm_gym.scene import AnyScenes
+from magworm_gym.tasks import Task, TaskName
 from magworm_gym.vector_env import Lanes, MagWormVectorEnv, RenderMode
 from magworm_gym.worlds import Observations
 
@@ -55,7 +56,7 @@ class MagWormSB3VecEnv(VecEnv):
         render_envs: Environments to draw.
         lanes: "wide" or "scalar"; equal bit for bit.
         threads: Most threads to use; None for all cores.
-        task: "crawl", "turn" or "reach".
+        task: What is asked of the worms: "crawl", "turn", "reach", or a task such as ``Turn()``.
         randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
 
     Raises:
@@ -72,7 +73,7 @@ class MagWormSB3VecEnv(VecEnv):
         render_envs: Sequence[int] = (0,),
         lanes: Lanes = "wide",
         threads: int | None = None,
-        task: str = "crawl",
+        task: Task | TaskName = "crawl",
         randomise: AnyRandomise | None = None,
     ) -> None:
         self.worms = MagWormVectorEnv(

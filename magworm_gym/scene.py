@@ -49,6 +49,11 @@ def load_scene(scene: AnyScene) -> Scene:
     )
 
 
+def episode_steps(scene: Scene) -> int:
+    """Control steps of an episode, by the scene."""
+    return round(scene.episode_s / scene.control_step_s)
+
+
 def _is_file(name: str) -> bool:
     """Whether a text is the path of a file; one that can be none, such as a long one, is not."""
     try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import deepcopy
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from gymnasium import logger
@@ -22,14 +22,15 @@ from magworm_gym.randomise import AnyRandomise, load_randomise
 from magworm_gym.reset_options import Allowed, AnyOptions
 from magworm_gym.robots import Robots
 from magworm_gym.rollout import Rollout, roll_out
-from magworm_gym.scene import AnyScenes, load_scenes
+from magworm_gym.scene import AnyScenes, episode_steps, load_scenes
 from magworm_gym.spaces import AnyPart, box, layout
+from magworm_gym.specified import Specified
 from magworm_gym.state import pack, restore
-from magworm_gym.tasks import Task, task_named
+from magworm_gym.tasks import Task, TaskName, task_of
 from magworm_gym.worlds import Observations, Worlds
 
-RENDER_MODES = ("human", "rgb_array")
 RenderMode: TypeAlias = Literal["human", "rgb_array"]
+RENDER_MODES = get_args(RenderMode)
 AnyAutoreset: TypeAlias = AutoresetMode | Literal["NextStep", "SameStep", "Disabled"]
 Lanes: TypeAlias = Literal["wide", "scalar"]
 
@@ -37,11 +38,11 @@ RANDOM = ("_np_random", "_np_random_seed")
 """Attributes behind ``np_random``, which a reset changes before the simulator is asked."""
 
 
-class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
+class MagWormVectorEnv(Specified, VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     """N worms above a driven magnet, advanced together by the compiled simulator.
 
-    Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``, or ``Turn-v0``,
-    ``Reach-v0``. What is asked of them is their task: see :class:`~magworm_gym.tasks.Crawl`,
+    Gymnasium makes one with ``gymnasium.make_vec("MagWorm/Crawl-v0", num_envs=N)``, or ``Turn-v1``,
+    ``Reach-v1``. What is asked of them is their task: see :class:`~magworm_gym.tasks.Crawl`,
     :class:`~magworm_gym.tasks.Turn` and :class:`~magworm_gym.tasks.Reach` for rewards, goals, ends and infos.
 
     **Action** (A,), float32 in [-1, 1], clipped: target position of the stage along the robot, its
@@ -77,7 +78,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
     Args:
         num_envs: Number of environments N.
         scene: Preset, path of a TOML file, or scene; its drive must follow actions. None takes the
-            task's: ``paper-3`` in the plane for "crawl", ``turn-3`` in space for the others. A list of S
+            task's: ``paper-3`` in the plane for "crawl", ``turn-3-pair`` in space for the others. A list of S
             scenes of one shape gives environment i the scene i S // N, see :attr:`scenes`.
         max_episode_steps: Control steps until truncation; None takes the scene's ``episode_s``.
         render_mode: None; "rgb_array": :meth:`render` returns frames; "human": a window follows
@@ -86,7 +87,7 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         render_envs: Environments to draw. "human" shows the first of them.
         lanes: "wide" for SIMD, or "scalar"; the results are equal bit for bit.
         threads: Most threads to use; None for all cores.
-        task: "crawl", "turn" or "reach".
+        task: What is asked of the worms: "crawl", "turn", "reach", or a task such as ``Turn()``.
         randomise: :class:`~magworm_gym.Randomise`, or a mapping: how each episode draws its robot.
             None: all robots are the scene's.
 
@@ -110,11 +111,11 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         render_envs: Sequence[int] = (0,),
         lanes: Lanes = "wide",
         threads: int | None = None,
-        task: str = "crawl",
+        task: Task | TaskName = "crawl",
         randomise: AnyRandomise | None = None,
     ) -> None:
-        kind = task_named(task)
-        scenes = load_scenes(kind.default_scene if scene is None else scene)
+        settings = task_of(task)
+        scenes = load_scenes(settings.default_scene if scene is None else scene)
         for one in scenes:
             if not one.controlled:
                 raise ValueError(
@@ -126,12 +127,12 @@ class MagWormVectorEnv(VectorEnv[Observations, ArrayLike, NDArray[Any]]):
         autoreset, drawn = AutoresetMode(autoreset_mode), load_randomise(randomise)
         batch = Batch(scenes, self.num_envs, lanes=lanes, threads=threads)
         first = batch.scene
-        of_scene = round(first.episode_s / first.control_step_s)
-        limit = positive("max_episode_steps", of_scene if max_episode_steps is None else max_episode_steps)
-        asked = kind(first, batch.observation_specification, self.num_envs)
-        self._allowed = Allowed.of(batch, asked)
+        limit = episode_steps(first) if max_episode_steps is None else max_episode_steps
+        limit = positive("max_episode_steps", limit)
+        ready = settings.prepared(first, batch.observation_specification, self.num_envs)
+        self._allowed = Allowed.of(batch, ready)
         episodes = Episodes.before_the_first(self.num_envs, self._allowed.sizes)
-        self._worlds = Worlds(batch, asked, Robots(batch, drawn), episodes, autoreset, limit)
+        self._worlds = Worlds(batch, ready, Robots(batch, drawn), episodes, autoreset, limit)
         self.metadata = {
             "render_modes": list(RENDER_MODES),
             "render_fps": max(1, round(1.0 / first.control_step_s)),

@@ -20,8 +20,10 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 from magworm_gym import load_scene
 from magworm_gym.learning.compare.goal_trials import FIRST_SEED, fly
 from magworm_gym.sb3 import MagWormSB3VecEnv
+from magworm_gym.tasks import TaskName
 
-TASK, SCENE = "turn", "turn-3-pair"
+TASK: TaskName = "turn"
+SCENE = "turn-3-pair"
 GOALS_DEG = np.array([30.0, -30.0, 90.0, -90.0])
 STARTS = 4
 MEASURE_S = 10.0

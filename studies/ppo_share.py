@@ -23,6 +23,7 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 from magworm_gym import Batch, Scene
 from magworm_gym.sb3 import MagWormSB3VecEnv
+from magworm_gym.tasks import TaskName
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -85,7 +86,7 @@ class Case:
     """A task, the solver's step [ms] and precision."""
 
     title: str
-    task: str
+    task: TaskName
     scene: str
     step_ms: float
     precision: str = "double"

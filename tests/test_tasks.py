@@ -50,7 +50,7 @@ def seen(x_m: float = 0.0, z_m: float = 0.0, heading_deg: float = 0.0, roll_deg:
 
 
 def begun(kind: type[Task], goal: Any, batch: Any) -> Task:
-    task = kind(Scene.preset("turn-3"), OBSERVED, 1)
+    task = kind().prepared(Scene.preset("turn-3"), OBSERVED, 1)
     task.begin(batch, EVERYONE, np.atleast_2d(np.asarray(goal, float)), np.zeros((1, kind.draws)))
     return task
 
@@ -161,7 +161,7 @@ def test_goals_for_each_environment(task: str) -> None:
 
 
 def test_tasks_need_space_and_a_name() -> None:
-    with pytest.raises(ValueError, match=r"turn.*dimensions = 3.*paper-3"):
+    with pytest.raises(ValueError, match=r"Turn.*dimensions = 3.*paper-3"):
         made("turn", scene="paper-3")
     with pytest.raises(ValueError, match="task is 'fly'; allowed: 'crawl', 'turn', 'reach'"):
         made("fly")

@@ -9,6 +9,7 @@ from magworm_gym import Scene
 from magworm_gym.learning.damage import factors_for_each, removed_for_each
 from magworm_gym.learning.settings import TrainingSettings
 from magworm_gym.sb3 import MagWormSB3VecEnv
+from magworm_gym.tasks import task_of
 
 # The stage belongs to the rig, not to the robot.
 STAGE_PARAMETERS = "drive_"
@@ -39,7 +40,7 @@ class VariedRobots(MagWormSB3VecEnv):
             scene,
             max_episode_steps=settings.episode_steps,
             threads=threads,
-            task=settings.task,
+            task=task_of(settings.task),
         )
         self._robots: dict[str, Any] = {}
         if settings.removed_share > 0.0:

@@ -16,7 +16,6 @@ else:
 
 ROOT = Path(__file__).parents[2] / "training"
 CONFIGS = ROOT / "configs"
-SCENES = ROOT / "scenes"
 ALGORITHMS = ("ppo", "sac")
 TRAINED_TASKS = ("crawl", "turn", "reach")
 UNITS = {"crawl": "mm/s", "turn": "°/s", "reach": "mm/s"}

@@ -10,13 +10,12 @@ from magworm_gym.learning.command_line import Parser, UsageError, positive
 from magworm_gym.learning.settings import (
     ALGORITHMS,
     CONFIGS,
-    SCENES,
     UNITS,
     TrainingSettings,
     read_saved_settings,
     read_settings,
 )
-from magworm_gym.tasks import task_named
+from magworm_gym.tasks import task_of
 
 PURPOSES = {
     "crawl": "crawl towards the head as fast as possible",
@@ -69,11 +68,8 @@ def train(settings: TrainingSettings, out: Path, workers: int | None = None) -> 
     from magworm_gym.learning.seeds import default_workers, train_seeds
 
     kept_scene = out / SCENE
-    own = SCENES / settings.scene
     scene = (
-        Scene.from_toml(kept_scene.read_text("utf-8"))
-        if kept_scene.exists()
-        else load_scene(own if own.is_file() else settings.scene)
+        Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
     )
     if not scene.controlled:
         raise UsageError(f"scene {settings.scene!r} has no drive that a policy could control")
@@ -92,7 +88,7 @@ def _new_settings(flags: argparse.Namespace) -> TrainingSettings:
     own = CONFIGS / f"{flags.task}-{algorithm}.toml"
     if own.exists():
         return read_settings(own, overrides)
-    scene = {"scene": task_named(flags.task).default_scene}
+    scene = {"scene": str(task_of(flags.task).default_scene)}
     return read_settings(CONFIGS / f"{algorithm}.toml", scene | overrides)
 
 
@@ -124,7 +120,7 @@ def _parser() -> Parser:
             description=f"Trains policies that {purpose}. Flags override the table [run] of the settings "
             "file.",
         )
-        _add_flags(task, task_named(name).default_scene)
+        _add_flags(task, str(task_of(name).default_scene))
     return parser
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +21,15 @@ from magworm_gym.tasks.task import (
     TaskResult,
     metres,
     named,
+    setting,
 )
 
-NEAREST_M, FURTHEST_M = 0.030, 0.080
-WIDEST_DEG = 60.0
-TOLERANCE_M = 0.005
 
-
+@dataclass
 class Reach(Task):
     """Bring the robot's centre to a point on the ground.
+
+    **Start**: as for :class:`Turn`.
 
     **Goal**: drawn 30 to 80 mm from the robot's centre, up to 60° to either side of straight ahead, both
     uniformly; option ``goal_m`` sets it: ``[x, z]`` [m] from the robot's centre at the start, x towards
@@ -40,14 +41,32 @@ class Reach(Task):
 
     **Info** of a step: ``distance_m`` left; where an episode ends ``is_success``: 5 mm or less. Of a
     reset: ``goal_m``, x and z in the world.
+
+    Args:
+        nearest_m: Goals are drawn from this distance on [m].
+        furthest_m: Goals are drawn up to this distance [m].
+        widest_deg: Goals are drawn up to this angle to either side of straight ahead [°].
+        tolerance_m: A goal is reached within this distance [m].
     """
 
-    name = "reach"
+    default_scene = "turn-3-pair"
     goal_option = GoalOption("goal_m", (2,), 1.0)
     draws = 2
 
-    def __init__(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
-        super().__init__(scene, observed, num_envs)
+    nearest_m: float = setting(0.030, 0.0, 1.0)
+    furthest_m: float = setting(0.080, 0.0, 1.0)
+    widest_deg: float = setting(60.0, 0.0, 180.0)
+    tolerance_m: float = setting(0.005, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.nearest_m > self.furthest_m:
+            raise ValueError(
+                f"nearest_m of Reach is {self.nearest_m}; allowed: at most furthest_m = {self.furthest_m}"
+            )
+
+    def prepare(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
+        """Remembers the goal and its distance, and tells them in the unit of the drive's position."""
         place = named(observed, "drive_position")
         self._unit_m = metres(place)
         self.parts = (
@@ -57,9 +76,9 @@ class Reach(Task):
         self.state = {"goal_m": np.zeros((num_envs, 2)), "distance_m": np.zeros(num_envs)}
 
     def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:
-        """See the class."""
-        distance = NEAREST_M + (FURTHEST_M - NEAREST_M) * uniform[:, 0]
-        aside = np.deg2rad(WIDEST_DEG) * (2.0 * uniform[:, 1] - 1.0)
+        """Draws or takes goals about the robot at the start."""
+        distance = self.nearest_m + (self.furthest_m - self.nearest_m) * uniform[:, 0]
+        aside = np.deg2rad(self.widest_deg) * (2.0 * uniform[:, 1] - 1.0)
         sine, cosine = sin_cos(aside)
         drawn_m = distance[:, None] * np.stack([-cosine, sine], axis=1)
         x, z = np.where(np.isnan(requested_goal), drawn_m, requested_goal).T.copy()
@@ -70,15 +89,15 @@ class Reach(Task):
         self.state["distance_m"] = np.where(mask, self._distance_m(poses), self.state["distance_m"])
 
     def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
-        """See the class."""
+        """Rewards what the centre came nearer to the goal."""
         before = self.state["distance_m"]
         distance = np.where(mask, self._distance_m(simulation.robot_poses()), before)
         self.state["distance_m"] = distance
-        reached = distance <= TOLERANCE_M
+        reached = distance <= self.tolerance_m
         return TaskResult(MM_PER_M * (before - distance), reached, reached, {"distance_m": distance})
 
     def observe(self, simulation: Simulation) -> Floats:
-        """See the class."""
+        """Place and distance of the goal, from the robot."""
         poses = simulation.robot_poses()
         x, z = (self.state["goal_m"] - poses[:, :2]).T.copy()
         sin, cos = sin_cos(poses[:, 2])
@@ -86,13 +105,13 @@ class Reach(Task):
         return np.asarray(seen / self._unit_m)
 
     def reset_infos(self) -> dict[str, NDArray[np.float64]]:
-        """See the class."""
+        """The place of the goal."""
         return {"goal_m": self.state["goal_m"]}
 
     def goal(self, i: int) -> Goal:
-        """See the class."""
+        """The point, with the circle that counts as reached."""
         x, z = self.state["goal_m"][i].tolist()
-        return Goal(point_m=(x, z), radius_m=TOLERANCE_M)
+        return Goal(point_m=(x, z), radius_m=self.tolerance_m)
 
     def _distance_m(self, poses: Floats) -> Floats:
         return np.asarray(np.linalg.norm(self.state["goal_m"] - poses[:, :2], axis=1))

@@ -5,13 +5,16 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import Field, dataclass, field, fields, is_dataclass
+from numbers import Real
 from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene, Specification
+from magworm_gym.arguments import shown
+from magworm_gym.scene import AnyScene
 from magworm_gym.spaces import Part
 
 Floats = NDArray[np.float64]
@@ -85,26 +88,29 @@ class Simulation(Protocol):
         """As :meth:`Batch.magnets_present`."""
 
 
+def setting(default: float, low: float, high: float) -> Any:
+    """A field of a task: a number that lies from `low` to `high`, as :class:`Task` checks."""
+    return field(default=default, metadata={"low": low, "high": high})
+
+
 class Task(ABC):
     """What is asked of N environments of a scene: goals, what is told of them, rewards and ends.
 
-    NumPy's sines may differ in the last bit between strided and contiguous arrays: a task takes them of
-    contiguous ones, so that an environment does the same whatever their number.
+    A task is a dataclass whose fields are its settings, such as ``Turn(near_reward=0.2)``. Environments
+    work on a copy of their own, which :meth:`prepare` has made ready for them. A subclass needs
+    :meth:`evaluate`; one with goals or memory also :meth:`prepare`, :meth:`begin` and :meth:`observe`.
 
     Whatever changes in time stands in :attr:`state`, so that environments are saved and copied
-    with it. Environments that the simulator broke are no concern of a task.
-
-    Args:
-        scene: The scene of every environment.
-        observed: What the simulator puts into an observation.
-        num_envs: Number of environments N.
+    with it. Environments that the simulator broke are no concern of a task. NumPy's sines may differ in
+    the last bit between strided and contiguous arrays: a task takes them of contiguous ones, so that an
+    environment does the same whatever their number.
 
     Raises:
-        ValueError: The task cannot be done in this scene.
+        ValueError: A :func:`setting` is out of range.
     """
 
-    name: ClassVar[str]
-    default_scene: ClassVar[str] = "turn-3"
+    default_scene: ClassVar[AnyScene] = "paper-3"
+    """Preset, path of a TOML file, or scene of environments that name none."""
     goal_option: ClassVar[GoalOption | None] = None
     draws: ClassVar[int] = 0
     """How many random numbers a goal takes."""
@@ -116,12 +122,45 @@ class Task(ABC):
     state: dict[str, Floats]
     """What changes in time, by name; arrays (N, …)."""
 
-    def __init__(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
+    def __post_init__(self) -> None:
+        for one in self.settings():
+            name, given = f"{one.name} of {type(self).__name__}", getattr(self, one.name)
+            if one.metadata:
+                setattr(self, one.name, _number(name, given, **one.metadata))
+
+    @classmethod
+    def settings(cls) -> tuple[Field[Any], ...]:
+        """The fields of its dataclass."""
+        return fields(cls) if is_dataclass(cls) else ()
+
+    def arguments(self) -> dict[str, Any]:
+        """What makes it again: its class, as ``"module:Class"``, and its settings by name."""
+        settings = {one.name: getattr(self, one.name) for one in self.settings()}
+        return {"task_class": class_path(type(self)), **settings}
+
+    def prepared(self: AnyTask, scene: Scene, observed: Sequence[Specification], num_envs: int) -> AnyTask:
+        """A copy for N environments of a scene, see :meth:`prepare`."""
         if self.goal_option is not None and scene.dimensions != 3:
             raise ValueError(
-                f"task {self.name!r} needs a scene in space (dimensions = 3); {scene.name!r} is in the plane"
+                f"{type(self).__name__} needs a scene in space (dimensions = 3); {scene.name!r} is in the "
+                "plane"
             )
-        self.state = {}
+        task = copy(self)
+        task.state = {}
+        task.prepare(scene, observed, num_envs)
+        return task
+
+    def prepare(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:  # noqa: B027
+        """Sets :attr:`state`, and :attr:`parts` where they depend on the scene.
+
+        Args:
+            scene: The scene of every environment.
+            observed: What the simulator puts into an observation.
+            num_envs: Number of environments N.
+
+        Raises:
+            ValueError: The task cannot be done in this scene.
+        """
 
     def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:  # noqa: B027
         """Sets goals where episodes start, after the simulator has reset them.
@@ -160,6 +199,42 @@ class Task(ABC):
     def goal(self, i: int) -> Goal | None:
         """The goal of environment i, to be drawn; None without one."""
         return None
+
+
+def class_path(task: type[Task]) -> str:
+    """Where a class of tasks is found: ``"module:Class"``."""
+    return f"{task.__module__}:{task.__qualname__}"
+
+
+def class_at(path: str) -> type[Task]:
+    """The class of tasks that :func:`class_path` names.
+
+    Nothing is imported: a path may come from a file that somebody else wrote.
+
+    Raises:
+        ValueError: No class of that path has been defined.
+    """
+    known = _defined(Task)
+    if path not in known:
+        raise ValueError(
+            f"task_class is {shown(path)}; allowed: {', '.join(known)}, or import its module first"
+        )
+    return known[path]
+
+
+def _defined(kind: type[Any]) -> dict[str, type[Task]]:
+    """All classes below one, by path; the latest where a path was defined again, as in a notebook."""
+    known: dict[str, type[Task]] = {}
+    for each in kind.__subclasses__():
+        known |= {class_path(each): each, **_defined(each)}
+    return known
+
+
+def _number(name: str, value: Any, low: float, high: float) -> float:
+    number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else np.nan
+    if not low <= number <= high:
+        raise ValueError(f"{name} is {shown(value)}; allowed: {low:g} to {high:g}")
+    return number
 
 
 def metres(part: Specification) -> float:

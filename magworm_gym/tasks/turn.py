@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene, Specification, atan2, sin_cos
 from magworm_gym.spaces import Part
-from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Simulation, Task, TaskResult
-
-GREATEST_GOAL_DEG = 90.0
-"""Goals are drawn up to this angle to either side of the heading at the start."""
-TOLERANCE_DEG = 3.0
-NEAR_REWARD = 0.1
-TIPPED_ROLL_DEG = 60.0
-TIPPED_REWARD = -30.0
+from magworm_gym.tasks.task import Flags, Floats, Goal, GoalOption, Simulation, Task, TaskResult, setting
 
 
+@dataclass
 class Turn(Task):
     """Turn the robot until its heading is the goal's, and stay there.
+
+    **Start**: the robot lies straight and at rest, its head towards −x, at the scene's start or that of the
+    option ``start``; the stage stands anywhere within its limits about it, at random.
 
     **Goal**: drawn uniformly from ±90° about the heading at the start; option ``goal_deg`` sets it, from
     -180 to 180, positive anticlockwise as seen from above.
@@ -35,9 +33,16 @@ class Turn(Task):
     **Info** of a step: ``heading_rad``, ``heading_error_rad`` (goal − heading), ``roll_rad`` of the
     magnet that rolls furthest; where an episode ends ``is_success``: less than 3° are left, and the
     robot has neither tipped over nor broken. Of a reset: ``goal_rad``, the heading asked for.
+
+    Args:
+        greatest_goal_deg: Goals are drawn up to this angle to either side [°].
+        tolerance_deg: The heading is the goal's where less is left [°].
+        near_reward: Reward of a step after which it is.
+        tipped_roll_deg: A robot tips over where a magnet rolls further [°].
+        tipped_reward: Reward of the step in which it does.
     """
 
-    name = "turn"
+    default_scene = "turn-3-pair"
     goal_option = GoalOption("goal_deg", (), 180.0)
     draws = 1
     uses_magnet_poses = True
@@ -46,8 +51,14 @@ class Turn(Task):
         Part("heading_error", "π rad", 1, -np.inf, np.inf, "goal − heading, whole turns counted"),
     )
 
-    def __init__(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
-        super().__init__(scene, observed, num_envs)
+    greatest_goal_deg: float = setting(90.0, 0.0, 180.0)
+    tolerance_deg: float = setting(3.0, 0.0, 180.0)
+    near_reward: float = setting(0.1, -1e6, 1e6)
+    tipped_roll_deg: float = setting(60.0, 0.0, 180.0)
+    tipped_reward: float = setting(-30.0, -1e6, 1e6)
+
+    def prepare(self, scene: Scene, observed: Sequence[Specification], num_envs: int) -> None:
+        """Remembers the goal and the heading, whole turns counted."""
         self.state = {"goal_rad": np.zeros(num_envs), "heading_rad": np.zeros(num_envs)}
 
     @property
@@ -56,42 +67,42 @@ class Turn(Task):
         return self.state["goal_rad"] - self.state["heading_rad"]
 
     def begin(self, simulation: Simulation, mask: Flags, requested_goal: Floats, uniform: Floats) -> None:
-        """See the class."""
+        """Draws or takes goals about the heading at the start."""
         heading = simulation.robot_poses()[:, 2]
-        drawn_deg = GREATEST_GOAL_DEG * (2.0 * uniform - 1.0)
+        drawn_deg = self.greatest_goal_deg * (2.0 * uniform - 1.0)
         turn_deg = np.where(np.isnan(requested_goal), drawn_deg, requested_goal)[:, 0]
         self.state["heading_rad"] = np.where(mask, heading, self.state["heading_rad"])
         self.state["goal_rad"] = np.where(mask, heading + np.deg2rad(turn_deg), self.state["goal_rad"])
 
     def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
-        """See the class."""
+        """Follows the heading; rewards what it came nearer to the goal."""
         before = np.abs(np.rad2deg(self.error_rad))
         change = simulation.robot_poses()[:, 2] - self.state["heading_rad"]
         heading = self.state["heading_rad"] + np.where(mask, _within_half_turn(change), 0.0)
         self.state["heading_rad"] = heading
         left = np.abs(np.rad2deg(self.error_rad))
-        near = left < TOLERANCE_DEG
+        near = left < self.tolerance_deg
         roll, upside_down = _furthest_roll(simulation)
-        tipped = (np.abs(roll) > np.deg2rad(TIPPED_ROLL_DEG)) | upside_down
+        tipped = (np.abs(roll) > np.deg2rad(self.tipped_roll_deg)) | upside_down
         return TaskResult(
-            rewards=before - left + NEAR_REWARD * near + TIPPED_REWARD * tipped,
+            rewards=before - left + self.near_reward * near + self.tipped_reward * tipped,
             terminated=tipped,
             success=near & ~tipped,
             infos={"heading_rad": heading, "heading_error_rad": self.error_rad, "roll_rad": roll},
         )
 
     def observe(self, simulation: Simulation) -> Floats:
-        """See the class."""
+        """The direction and the angle that are left."""
         error = self.error_rad
         sine, cosine = sin_cos(error)
         return np.stack([cosine, sine, error / np.pi], axis=1)
 
     def reset_infos(self) -> dict[str, NDArray[np.float64]]:
-        """See the class."""
+        """The heading asked for."""
         return {"goal_rad": self.state["goal_rad"]}
 
     def goal(self, i: int) -> Goal:
-        """See the class."""
+        """The heading asked for, as an arrow."""
         return Goal(heading_rad=float(self.state["goal_rad"][i]))
 
 

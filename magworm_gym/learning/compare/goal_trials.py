@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from magworm_gym import MagWormVectorEnv, Recording, Scene
 from magworm_gym.learning.compare.pilots import Pilot
-from magworm_gym.tasks import Goal
+from magworm_gym.tasks import Goal, Turn, task_of
 
 Floats = NDArray[np.float64]
 
@@ -115,7 +115,7 @@ def _begun(
     scene: Scene, task: str, pilot: Pilot, goals: Floats, seeds: Sequence[int], duration_s: float
 ) -> tuple[MagWormVectorEnv, NDArray[np.float32]]:
     steps = max(1, round(duration_s / scene.control_step_s))
-    worms = MagWormVectorEnv(len(goals), scene, max_episode_steps=steps, task=task)
+    worms = MagWormVectorEnv(len(goals), scene, max_episode_steps=steps, task=task_of(task))
     option = worms.task.goal_option
     assert option is not None, "the task has a goal"
     observations, _ = worms.reset(seed=[int(seed) for seed in seeds], options={option.name: goals})
@@ -126,6 +126,6 @@ def _begun(
 def _left(worms: MagWormVectorEnv) -> Floats:
     """Heading error [°], or distance [m] (N,)."""
     state = worms.task.state
-    if worms.task.name == "turn":
+    if isinstance(worms.task, Turn):
         return np.asarray(np.rad2deg(state["goal_rad"] - state["heading_rad"]))
     return np.array(state["distance_m"])

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magworm_gym import MagWormVectorEnv, Scene
 from magworm_gym.learning.crawl_policy import LearnedController
+from magworm_gym.tasks import Turn
 
 Floats = NDArray[np.float64]
 
@@ -101,7 +102,7 @@ class Steered:
         self._step_s = worms.scene.control_step_s
         self._side: Callable[[Floats], tuple[Floats, NDArray[np.bool_]]]
         layout = worms.observation_layout
-        if worms.task.name == "turn":
+        if isinstance(worms.task, Turn):
             self._seen, self._side = layout["heading_error"], _turn_side
         else:
             self._seen, self._side = layout["goal_position"], _reach_side
