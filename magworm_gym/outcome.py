@@ -51,7 +51,11 @@ def outcome_of(result: TaskResult, status: NDArray[np.uint8], stepping: Flags, a
         status: Codes of the simulator (N,).
         stepping: Environments in whose episode the step was (N,).
         at_limit: Episodes as long as they may be (N,).
+
+    Raises:
+        ValueError: An array of the task's has another shape.
     """
+    result.check(len(stepping))
     broken = stepping & (status != 0)
     sound = stepping & ~broken
     terminated = sound & result.terminated

@@ -90,7 +90,7 @@ def register_task(
 def arguments_of(environment_id: str, **arguments: Any) -> dict[str, Any]:
     """Arguments of :class:`MagWormVectorEnv`, and of the Stable-Baselines3 adapter, that an ID stands for.
 
-    >>> MagWormVecEnv(64, **arguments_of("own_task:Own/Stop-v0", near_reward=0.5))
+    >>> MagWormSB3VecEnv(64, **arguments_of("own_task:Own/Stop-v0", distance_m=0.01))
 
     Args:
         environment_id: As ``make`` takes it: of ``"module:ID"`` the module is imported first, to register it.

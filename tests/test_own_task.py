@@ -17,7 +17,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 from magworm_gym import CRAWL_ID, CUSTOM_ID, MagWormVectorEnv, arguments_of, register_task
-from magworm_gym.tasks import Crawl, Turn
+from magworm_gym.tasks import Crawl, Simulation, TaskResult, Turn
 from magworm_gym.testing import check_vector_env
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -42,6 +42,7 @@ def test_an_example_is_short(name: str) -> None:
     assert len((EXAMPLES / name).read_text().splitlines()) < 60
 
 
+@pytest.mark.filterwarnings("ignore:.*infinity:UserWarning")
 def test_a_single_environment_of_one_s_own_task_passes() -> None:
     check_env(gymnasium.make(OWN_ID).unwrapped, skip_render_check=True)
 
@@ -79,9 +80,9 @@ def test_one_s_own_task_is_saved_with_its_environments() -> None:
 
 def test_stable_baselines3_learns_one_s_own_task() -> None:
     sb3 = pytest.importorskip("stable_baselines3")
-    from magworm_gym.sb3 import MagWormVecEnv
+    from magworm_gym.sb3 import MagWormSB3VecEnv
 
-    worms = MagWormVecEnv(4, **arguments_of(f"own_task:{OWN_ID}", distance_m=0.01, threads=1))
+    worms = MagWormSB3VecEnv(4, **arguments_of(f"own_task:{OWN_ID}", distance_m=0.01, threads=1))
     model = sb3.PPO("MlpPolicy", worms, n_steps=8, batch_size=32, n_epochs=1, device="cpu").learn(32)
     assert model.num_timesteps == 32 and worms.worms.task.distance_m == 0.01
 
@@ -142,3 +143,17 @@ def test_an_entry_is_replaced() -> None:
         assert gymnasium.spec("Own/Again-v0").max_episode_steps == steps
     assert arguments_of("Own/Again-v0")["max_episode_steps"] == 9
     assert arguments_of(CRAWL_ID, max_episode_steps=3)["max_episode_steps"] == 3
+
+
+class Broad(Crawl):
+    """Its rewards have an axis too many."""
+
+    def evaluate(self, simulation: Simulation, progress_m: Any, mask: Any) -> TaskResult:
+        return TaskResult(progress_m[:, np.newaxis], np.zeros(len(mask), np.bool_))
+
+
+def test_results_of_another_shape_are_refused() -> None:
+    worms = MagWormVectorEnv(3, task=Broad(), threads=1)
+    worms.reset(seed=0)
+    with pytest.raises(ValueError, match=r"rewards of a task have shape \(3, 1\); allowed: \(3,\)"):
+        worms.step(np.zeros((3, 3)))

@@ -70,6 +70,14 @@ class TaskResult:
     success: Flags | None = None
     infos: dict[str, NDArray[Any]] = field(default_factory=dict)
 
+    def check(self, num_envs: int) -> None:
+        """Raises ValueError where an array is not one of N environments: NumPy would stretch some of them."""
+        for name in ("rewards", "terminated", "success", *self.infos):
+            values = self.infos[name] if name in self.infos else getattr(self, name)
+            shape = np.shape(values)[:1] if name in self.infos else np.shape(values)
+            if values is not None and shape != (num_envs,):
+                raise ValueError(f"{name} of a task have shape {np.shape(values)}; allowed: ({num_envs},)")
+
 
 class Simulation(Protocol):
     """What a task sees of its environments: a batch, or an instant of a rollout of one."""
