@@ -44,7 +44,8 @@ validate: install-test need-cargo  ## compare the simulator with exact solutions
 	$(VENV_PYTHON) -m studies render validation
 
 paper: install-test  ## simulate the paper's experiments again: docs/paper.md beside its figures
-	$(VENV_PYTHON) -m studies.paper
+	$(VENV_PYTHON) -m studies measure paper
+	$(VENV_PYTHON) -m studies render paper
 
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
 	$(VENV_PYTHON) -m studies.turning

@@ -6,6 +6,7 @@ from studies.kit.study import main
 
 MODULES = {
     "needs": "studies.needs.study",
+    "paper": "studies.paper.study",
     "peak": "studies.peak.study",
     "validation": "studies.validation.study",
 }

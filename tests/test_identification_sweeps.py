@@ -67,5 +67,5 @@ def test_strides_of_a_sweep_are_those_that_the_page_of_the_paper_measures():
     conditions = tuple({"static_friction": factor} for factor in FRICTIONS)
     curve_m = curve_of(sweep := Sweep("three", moving(0.2), (0.2,), conditions), STRIDE)
     stride_m = curve_m.values(sweep.record({}, 0.01)).mean()
-    (measured,) = measured_strides([Walk(moving(0.2), 0.2)])
-    assert stride_m == pytest.approx(measured.mean_m, abs=1e-4)
+    measured = measured_strides([Walk(moving(0.2), 200.0)])
+    assert stride_m == pytest.approx(1e-3 * measured.mean_mm.item(), abs=1e-4)

@@ -1,49 +1,36 @@
 """The study of the paper: stages, strides, bands, words. No full run."""
 
 import math
-import sys
-from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
-
 from magworm_gym import Recording, record_scenes
-from studies.paper import bands
-from studies.paper.bands import Band, Margins, outside, read_bands, read_margins, rewritten
+from studies.kit.passes import PASS_S, SIMULATION, one_pass, robot
+from studies.paper.ablations import only
+from studies.paper.bands import margin, outside, read_bands, written
 from studies.paper.bouncing import takeoffs
 from studies.paper.cantilever import SOFT_M, arc, exact_angle
+from studies.paper.damaged import NAMES, SETS, Damaged
+from studies.paper.damaged import SPEEDS_MM_S as DAMAGED_MM_S
 from studies.paper.displacements import differing
+from studies.paper.experiment import Experiment
 from studies.paper.feet import sole_heights
-from studies.paper.hypotheses import hypotheses
 from studies.paper.loads import magnetic_loads
-from studies.paper.page import overview, page
-from studies.paper.passes import CARRIED_M, PASSES, Walk, averaged, pass_ends_s, strides_of
-from studies.paper.quantity import Origin, Quantity, number, verdict
-from studies.paper.scenes import PASS_S, SIMULATION, one_pass, only, robot
-from studies.paper.section import Section
+from studies.paper.page import overview, paper_page
+from studies.paper.passes import CARRIED_M, PASSES, Strides, Walk, averaged, pass_ends_s, strides_of
+from studies.paper.quantity import AGAIN, REQUIRED, Origin, Quantity, Row, read_rows
 from studies.paper.stages import spans, stage_of
 from studies.paper.stride import SPEEDS_MM_S, Curve, crossing_mm_s, slow_spread_percent
-from studies.paper.wording import listed, ranking, trend
-
-UPPER = """[margins]
-relative = 0.05
-spreads = 2.0
-smallest = { mm = 0.1 }
-
-[bands.pass.peak]
-low = 8.8
-high = 9.3
-why = "target"
-
-"""
 
 
-def quantity(key="stride.five", model=6.0, origin=Origin.HELD_BACK, **more):
-    return Quantity(key, "what", "mm", model, origin, **more)
+def quantity(key="stride.five", model=6.0, origin=Origin.HELD_BACK, spread=0.0, **more):
+    if origin in REQUIRED:
+        more.setdefault("band", (5.0, 7.0))
+    return Quantity(key, Row(what="what", origin=origin, unit="mm", **more), model, spread)
 
 
 def still(centre_x):
@@ -100,7 +87,7 @@ def test_a_broken_simulation_has_no_stride():
 
 
 def test_passes_end_half_way_between_two_drive_magnets():
-    walk = Walk(robot(3, SIMULATION), 0.1)
+    walk = Walk(robot(3, SIMULATION), 100.0)
     ends = pass_ends_s(walk, 0.05)
     assert len(ends) == PASSES
     assert np.allclose(np.diff(ends), 3.0)
@@ -110,21 +97,47 @@ def test_passes_end_half_way_between_two_drive_magnets():
 def test_passes_after_a_robot_was_carried_along_do_not_count():
     ways = np.array([[1.0, 2.0, 3.0], [1.0, -1.0, 9.0]])
     ways[1] *= 2 * CARRIED_M
-    stride = averaged(ways)
-    assert stride.mean_m == pytest.approx((6.0 + 2 * CARRIED_M) / 4)
-    assert stride.carried == 0.5
-    lost = averaged(np.full((2, 3), -1.0))
-    assert (lost.mean_m, lost.carried) == (-1.0, 1.0)
+    mean, _, carried = averaged(ways)
+    assert mean == pytest.approx(1e3 * (6.0 + 2 * CARRIED_M) / 4)
+    assert carried == 0.5
+    assert averaged(np.full((2, 3), -1.0)) == (-1e3, 0.0, 1.0)
+
+
+def test_a_robot_crawls_where_it_is_clear_of_its_spread_and_never_carried():
+    strides = Strides(
+        np.array([0.6, 0.6, 0.4, 9.0]), np.array([0.5, 0.7, 0.1, 0.0]), np.array([0.0, 0.0, 0.0, 0.1])
+    )
+    assert strides.crawls.tolist() == [True, False, False, False]
+    assert strides.reshaped(2, 2)[1].mean_mm.tolist() == [0.4, 9.0]
+
+
+def test_the_best_of_a_damaged_robot_was_not_carried_and_is_told_forward_where_both_ways_are_equal():
+    shape = (len(SETS), 2, len(DAMAGED_MM_S))
+    mean, spread, carried = np.zeros(shape), np.zeros(shape), np.zeros(shape)
+    mean[:, :, 2] = 3.0
+    mean[0, 1, 3], carried[0, 1, 3] = 9.0, 0.5
+    mean[1, 1, 4] = 4.0
+    carried[2] = 1.0
+    found = Damaged(Strides(mean, spread, carried))
+    assert [where for _, where in found.best[:2]] == ["forward, 140 mm/s", "backward, 210 mm/s"]
+    rows = list(found.rows)
+    assert [row[0] for row in rows] == NAMES and NAMES[0] == "○●●●●"
+    assert rows[2][-2:] == ["carried along", "**no**"]
+    assert next(iter(found.groups)).startswith("five magnets, 1 taken out: 4 of 5 crawl: ○●●●●")
 
 
 def test_the_crossing_is_where_five_magnets_lead_for_good():
     three, five = np.full(len(SPEEDS_MM_S), 2.0), np.full(len(SPEEDS_MM_S), 1.0)
     five[[1, *range(10, len(five))]] = 3.0
-    curves = [Curve(values, 0 * values, 0 * values, 54.0) for values in (three, five)]
+    curves = [curve(values) for values in (three, five)]
     assert crossing_mm_s(*curves) == SPEEDS_MM_S[10]
     assert crossing_mm_s(*curves[::-1]) == math.inf
-    names = {"three": curves[0], "four": curves[0], "five": Curve(1.5 * three, three, three, 94.0)}
+    names = {"three": curves[0], "four": curves[0], "five": curve(1.5 * three)}
     assert slow_spread_percent(names) == pytest.approx(50.0)
+
+
+def curve(mean):
+    return Curve(Strides(mean, 0 * mean, 0 * mean), 54.0)
 
 
 def test_takeoffs_count_the_ways_up():
@@ -158,88 +171,91 @@ def _friction(scene):
 
 
 def test_a_figure_outside_its_band_is_named_with_what_is_allowed():
-    known = {"a.b": Band(1.0, 2.0, "target")}
+    known = {"a.b": (1.0, 2.0)}
     assert outside([quantity("a.b", 1.5)], known) == []
     (sentence,) = outside([quantity("a.b", 2.5)], known)
-    assert sentence == "a.b is 2.5 mm; allowed: 1 to 2 (target)"
+    assert sentence == "a.b is 2.5 mm; allowed: 1 to 2 (what the model gave before)"
     assert "a.b" in outside([quantity("a.b", math.nan)], known)[0]
     assert "no band" in outside([quantity("a.b", 1.5), quantity("e.f")], known)[0]
     assert outside([], known) == ["a.b has a band but no figure"]
+    target = quantity(model=4.0, origin=Origin.TARGET, why="target")
+    assert outside([target], {}) == ["stride.five is 4 mm; allowed: 5 to 7 (target)"]
+    assert outside([quantity("a.b", math.inf)], {"a.b": (1.0, math.inf)}) != []
 
 
-def test_rows_that_disagree_come_with_a_guess():
-    rows = [quantity("stride.stall", paper=3.0), quantity("new.row", paper=3.0), quantity("a.b", paper=6.0)]
-    told = hypotheses(rows).splitlines()[3:]
-    assert len(told) == 2 and "damping" in told[0] and told[1].endswith("No hypothesis yet.")
-    assert hypotheses([quantity("stride.stall", paper=3.0, listed=False)]).count("- *") == 0
-
-
-def test_bands_by_hand_stay_and_the_others_follow_the_model():
-    text = rewritten(UPPER + bands.MARK + "old = 1", [quantity("pass.peak", 5.0, Origin.TARGET), quantity()])
-    assert text.startswith(UPPER + bands.MARK) and "old" not in text
-    found = read_bands(text)
-    assert (found["pass.peak"].low, found["pass.peak"].high) == (8.8, 9.3)
-    assert (found["stride.five"].low, found["stride.five"].high) == pytest.approx((5.7, 6.3))
-    assert rewritten(text, [quantity("pass.peak", 5.0, Origin.TARGET), quantity()]) == text
-
-
-def test_a_target_without_a_band_by_hand_is_an_error():
-    with pytest.raises(ValueError, match=r"lift\.final"):
-        rewritten(UPPER, [quantity("lift.final", origin=Origin.TARGET)])
+def test_written_bands_follow_the_model(tmp_path):
+    found = [quantity("a.target", origin=Origin.TARGET), quantity(), quantity("a.never", math.inf)]
+    (tmp_path / "bands.toml").write_text(written(found))
+    bands = read_bands(tmp_path / "bands.toml")
+    assert bands == {"stride.five": (5.7, 6.3), "a.never": (math.inf, math.inf)}
+    assert outside(found, bands) == []
 
 
 def test_the_margin_is_the_greatest_of_share_spread_and_smallest():
-    margins = Margins(relative=0.05, spreads=2.0, smallest={"mm": 0.1})
-    assert margins.of(quantity(model=10.0)) == pytest.approx(0.5)
-    assert margins.of(quantity(model=10.0, spread=0.4)) == pytest.approx(0.8)
-    assert margins.of(quantity(model=0.0)) == pytest.approx(0.1)
+    assert margin(quantity(model=10.0)) == pytest.approx(0.5)
+    assert margin(quantity(model=10.0, spread=0.4)) == pytest.approx(0.8)
+    assert margin(quantity(model=0.0)) == pytest.approx(0.15)
 
 
-def test_the_bands_of_the_repository_can_be_read():
-    text = bands.PATH.read_text(encoding="utf-8")
-    assert read_margins(text).relative > 0.0
-    assert all(band.low <= band.high and band.why for band in read_bands(text).values())
-    targets = {"lift.final", "pass.peak", "pass.stride", "ablation.horizontal", "ablation.vertical"}
-    assert targets <= set(read_bands(text.split(bands.MARK)[0]))
+def test_a_target_without_a_band_is_an_error():
+    with pytest.raises(ValueError, match="targets and closed forms have a band"):
+        Row(what="what", origin=Origin.TARGET)
+
+
+def test_a_row_with_an_unknown_field_is_refused(tmp_path):
+    (tmp_path / "rows.toml").write_text('[stride.five]\nwhat = "w"\norigin = "held back"\npapers = 3.0\n')
+    with pytest.raises(msgspec.ValidationError, match="papers"):
+        read_rows(tmp_path / "rows.toml")
+
+
+def test_the_robot_of_the_papers_simulation_was_fitted_to_no_stride():
+    rows = read_rows()
+    again = {key: row for key, row in rows.items() if key.startswith(AGAIN)}
+    assert len(again) == sum(key.startswith("stride.") for key in rows)
+    assert all(row.origin is Origin.HELD_BACK and not row.listed for row in again.values())
 
 
 @pytest.mark.parametrize(
-    ("found", "inside", "words"),
+    ("found", "words"),
     [
-        (quantity(origin=Origin.TARGET), True, "met"),
-        (quantity(origin=Origin.TARGET), False, "**missed**"),
-        (quantity(paper=6.1), True, "agrees"),
-        (quantity(paper=5.5), True, "close, high"),
-        (quantity(paper=10.0, note="why"), True, "**disagrees, too low**; why"),
-        (quantity(holds=(0.0, 1.0)), True, "**contradicts the paper**"),
-        (quantity(holds=(5.0, 7.0)), False, "as the paper says"),
-        (quantity(origin=Origin.MODEL), True, "no figure in the paper"),
+        (quantity(origin=Origin.TARGET), "met"),
+        (quantity(model=8.0, origin=Origin.TARGET), "**missed**"),
+        (quantity(origin=Origin.CLOSED_FORM), "agrees"),
+        (quantity(paper=6.1), "agrees"),
+        (quantity(paper=5.5), "close, high"),
+        (quantity(paper=10.0, note="why"), "**disagrees, too low**; why"),
+        (quantity(paper=6.1, note="why"), "agrees"),
+        (quantity(holds=(0.0, 1.0)), "**contradicts the paper**"),
+        (quantity(holds=(5.0, 7.0)), "as the paper says"),
+        (quantity(origin=Origin.MODEL), "no figure in the paper"),
+        (quantity(model=math.inf, paper=5.0), "**disagrees**"),
     ],
 )
-def test_a_verdict_follows_from_the_numbers(found, inside, words):
-    assert verdict(found, inside) == words
+def test_a_verdict_follows_from_the_numbers(found, words):
+    assert found.verdict == words
 
 
-def test_words_follow_from_numbers():
-    assert trend([1.0, 2.0, 3.0]) == "rises"
-    assert trend([3.0, 2.0, 2.5]) == "falls"
-    assert trend([1.0, 1.01, 1.0]) == "stays level"
-    assert ranking({"three": 1.0, "five": 2.0, "four": -1.0}) == "five > three > four"
-    assert listed(["a"]) == "a" and listed(["a", "b", "c"]) == "a, b and c"
-    assert number(-0.001, 2) == "0.00" and number(-1.5, 1) == "−1.5"
+def test_a_page_states_every_figure_and_how_many_agree_and_guesses_why_not():
+    class Found(Experiment):
+        name = "mirror"
+        passes, parts = (), False
 
+        @classmethod
+        def measured(cls):
+            raise NotImplementedError
 
-def test_a_page_states_every_figure_and_how_many_agree():
-    found = [
-        quantity("pass.peak", 9.0, Origin.TARGET, paper=9.07),
-        quantity(paper=3.0),
-        quantity(listed=False),
-        quantity(origin=Origin.FITTED, paper=6.1),
-        quantity(origin=Origin.FITTED, claim="falls (below 0)", holds=(-math.inf, 0.0)),
-    ]
-    text = page([Section("Title", "Text.", quantities=found)], {"pass.peak": Band(8.8, 9.3, "target")})
+        def numbers(self):
+            return {"pass.peak": 9.0, "lift.robot": 9.0, "stages.wave": 2.0, "stride.crossing": (150.0, 10.0)}
+
+    text = paper_page([Found()])
     assert "Of 1 identification targets 1 are met" in text
-    assert "Of 2 trends that were fitted the model disagrees with 1" in text
+    assert "Of 1 trends that were fitted the model disagrees with 0" in text
     assert "of 1 figures and statements held back with 1" in text
-    assert overview(found, {}).count("\n") == 5
-    assert "## Title" in text
+    assert "| Case 1: lift of the middle, `paper-3` | 7.7 mm | 9.00 mm | +16.9 % | held back |" in text
+    assert "- *Case 1: lift of the middle, `paper-3`.* The lift belongs" in text
+    assert "II: crest" not in text and "150 ± 10 mm/s" in text
+    assert "## Mirror symmetry" in text
+
+
+def test_only_listed_figures_are_in_the_table():
+    assert len(overview([quantity(), quantity(listed=False)])) == 1

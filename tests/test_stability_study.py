@@ -12,7 +12,7 @@ pytest.importorskip("matplotlib")
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from magworm_gym import Scene, SceneError, record_scenes
-from studies.paper.scenes import values_of
+from studies.kit.passes import values_of
 from studies.stability.axes import (
     ALONE,
     DRIVE_HALF_HEIGHT_M,

@@ -12,7 +12,7 @@ pytest.importorskip("matplotlib")
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.paper.scenes import PASS_S, one_pass
+from studies.kit.passes import PASS_S, one_pass
 from studies.turning.data import points_csv, tipping_csv
 from studies.turning.findings import first_tipping
 from studies.turning.page import page

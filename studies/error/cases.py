@@ -9,8 +9,7 @@ from magworm_gym import Recording, Scene
 from studies.error.case import Axis, Case, Outcome
 from studies.error.magnets import magnets
 from studies.error.settings import Settings
-from studies.paper.lift import HOLD_S, LOW_M, RISE_S, middle_lift
-from studies.paper.scenes import AHEAD_M, PLANE_M, under_middle
+from studies.kit.passes import AHEAD_M, HOLD_S, LOW_M, PLANE_M, RISE_S, middle_lift, under_middle
 from studies.step_error import EVEN_FRICTION
 from studies.turning.passes import Drive, outcome_of
 

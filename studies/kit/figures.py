@@ -34,6 +34,8 @@ COLOURS = (BLUE, ORANGE, TEAL, RED, VIOLET, INK)
 """Of lines that are told apart by colour alone, in this order."""
 BY_MAGNETS = {3: BLUE, 4: ORANGE, 5: TEAL}
 """Robots."""
+BY_PLACE = {"head": TEAL, "middle": ORANGE, "tail": BLUE}
+"""Magnets of the robot with three."""
 
 WIDTH_IN = 9.2
 """Of a figure as wide as a page."""

@@ -71,7 +71,7 @@ def main(modules: Mapping[str, str], arguments: Sequence[str] | None = None) -> 
         return _measure(named(modules, asked.name), asked.name, asked.options)
     if unknown := [name for name in asked.names if name not in modules]:
         parser.error(f"no study is named {', '.join(unknown)}; there are {', '.join(modules)}")
-    return sum([_render(named(modules, name), name) for name in asked.names or modules]) and 1
+    return max([_render(named(modules, name), name) for name in asked.names or modules])
 
 
 def _measure(study: Study, name: str, options: Sequence[str]) -> int:

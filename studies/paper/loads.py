@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene, magnet
-from studies.paper.scenes import values_of
+from studies.kit.passes import values_of
 
 Floats = NDArray[np.float64]
 EDGES = ("length_m", "width_m", "height_m")

@@ -5,72 +5,80 @@ where predictions agree over that set, the figures decide them; where they part,
 """
 
 import json
-from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from magworm_gym import Scene
+from studies.kit.passes import ROBOT, Floats, robot
+from studies.kit.words import COUNTS, number
+from studies.paper.experiment import Experiment, Numbers
 from studies.paper.passes import Walk, measured_strides
-from studies.paper.quantity import number
-from studies.paper.robot_picture import MM
-from studies.paper.scenes import ROBOT, robot
-from studies.paper.section import Section, table
-from studies.paper.wording import COUNTS
-
-Floats = NDArray[np.float64]
 
 OTHERS = Path(__file__).parents[1] / "identification" / "others" / "paper-joint.json"
 SPEEDS_MM_S = (50.0, 110.0, 150.0, 210.0)
 ROBOTS = (3, 4, 5)
 
 
-def other_fits_section() -> Section:
-    """Runs the preset and the other robots at a few speeds, with three, four and five magnets."""
-    others = json.loads(OTHERS.read_text(encoding="utf-8"))
-    scenes = [robot(3), *(robot(3).with_values(each["values"]) for each in others)]
-    names = [f"`{ROBOT}`", *(f"loss {each['loss']:.2g}" for each in others)]
-    strides = _strides(scenes)
-    header = ["robot", *(f"{COUNTS[count]}, {v:g} mm/s" for count in ROBOTS for v in SPEEDS_MM_S)]
-    cells = strides.reshape(len(scenes), -1)
-    rows = [[name, *(number(stride, 2) for stride in row)] for name, row in zip(names, cells, strict=True)]
-    rows.append(["greatest less smallest", *(number(each, 2) for each in np.ptp(cells, axis=0))])
-    text = (
-        f"Strides in mm of `{ROBOT}` and of {len(others)} robots that [the identification]"
-        "(identification/paper-joint.md) found to fit about as well, as unlike each other as its exploration "
-        "reached, averaged as above; four magnets forward. "
-        f"{_agreement(strides)}\n\n{table(header, rows)}"
-    )
-    data = {"speed_mm_s": list(SPEEDS_MM_S), "magnets": list(ROBOTS), "stride_mm": strides.tolist()}
-    return Section("Robots that fit about as well", text, data=data)
+@dataclass(frozen=True)
+class OtherFits(Experiment):
+    """The preset and the other robots at a few speeds, with three, four and five magnets.
 
+    Attributes:
+        losses: How well each of the others fits.
+        stride_mm: Strides (robots, magnets, speeds) [mm]; the preset comes first.
+    """
 
-def _strides(scenes: Sequence[Scene]) -> Floats:
-    """Strides (robots, magnets, speeds) [mm]."""
-    walks = [
-        Walk(scene.with_values({"body.magnets": count}), 1e-3 * speed)
-        for scene in scenes
-        for count in ROBOTS
-        for speed in SPEEDS_MM_S
-    ]
-    means = [MM * stride.mean_m for stride in measured_strides(walks)]
-    return np.array(means).reshape(len(scenes), len(ROBOTS), len(SPEEDS_MM_S))
+    name: ClassVar[str] = "other-fits"
+    losses: list[float]
+    stride_mm: Floats
 
+    @classmethod
+    def measured(cls) -> "OtherFits":
+        """Runs all robots at all speeds."""
+        others = json.loads(OTHERS.read_text(encoding="utf-8"))
+        scenes = [robot(3), *(robot(3).with_values(each["values"]) for each in others)]
+        walks = [
+            Walk(scene.with_values({"body.magnets": count}), speed)
+            for scene in scenes
+            for count in ROBOTS
+            for speed in SPEEDS_MM_S
+        ]
+        means = measured_strides(walks).mean_mm
+        return cls([each["loss"] for each in others], means.reshape(len(scenes), len(ROBOTS), -1))
 
-def _agreement(strides: Floats) -> str:
-    """Of how many robots the paper's statements on speed hold, in words."""
-    three, four, five = np.moveaxis(strides, 1, 0)
-    slow, peak, crossing, fastest = range(len(SPEEDS_MM_S))
-    statements = {
-        "three magnets are slower at 210 mm/s than at 110": three[:, fastest] < three[:, peak],
-        "four are": four[:, fastest] < four[:, peak],
-        "five magnets are faster at 210 mm/s than at 110": five[:, fastest] > five[:, peak],
-        "three magnets beat five at 110 mm/s": three[:, peak] > five[:, peak],
-        "five beat three at 150 mm/s": five[:, crossing] > three[:, crossing],
-        "five beat three at 210 mm/s": five[:, fastest] > three[:, fastest],
-        "three, four and five differ by less than a quarter at 50 mm/s": np.ptp(strides[:, :, slow], axis=1)
-        < 0.25 * strides[:, :, slow].min(axis=1),
-    }
-    words = [f"{what} with {int(holds.sum())}" for what, holds in statements.items()]
-    return f"Of these {len(strides)} robots, {'; '.join(words)}."
+    def numbers(self) -> Numbers:
+        """None."""
+        return {}
+
+    @property
+    def head(self) -> list[str]:
+        """Of the table."""
+        return ["robot", *(f"{COUNTS[count]}, {v:g} mm/s" for count in ROBOTS for v in SPEEDS_MM_S)]
+
+    @property
+    def rows(self) -> list[list[str]]:
+        """Of the table: a robot each, and by how much they differ."""
+        names = [f"`{ROBOT}`", *(f"loss {loss:.2g}" for loss in self.losses), "greatest less smallest"]
+        cells = self.stride_mm.reshape(len(self.stride_mm), -1)
+        lines = [*cells, np.ptp(cells, axis=0)]
+        return [[name, *(number(stride) for stride in line)] for name, line in zip(names, lines, strict=True)]
+
+    @property
+    def agreeing(self) -> list[str]:
+        """Statements of the paper on speed, each with the number of robots of which it holds."""
+        three, four, five = np.moveaxis(self.stride_mm, 1, 0)
+        slow, peak, crossing, fastest = range(len(SPEEDS_MM_S))
+        each = self.stride_mm[:, :, slow]
+        statements = {
+            "three magnets are slower at 210 mm/s than at 110": three[:, fastest] < three[:, peak],
+            "four are": four[:, fastest] < four[:, peak],
+            "five magnets are faster at 210 mm/s than at 110": five[:, fastest] > five[:, peak],
+            "three magnets beat five at 110 mm/s": three[:, peak] > five[:, peak],
+            "five beat three at 150 mm/s": five[:, crossing] > three[:, crossing],
+            "five beat three at 210 mm/s": five[:, fastest] > three[:, fastest],
+            "three, four and five differ by less than a quarter at 50 mm/s": np.ptp(each, axis=1)
+            < 0.25 * each.min(axis=1),
+        }
+        return [f"{what} with {int(holds.sum())}" for what, holds in statements.items()]

@@ -8,11 +8,13 @@ because stick and slip make a single stride a rugged function of everything.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.kit.passes import AHEAD_M, CARRIED_M, SEPARATION_M, Floats, on_belt, unbroken
+from studies.kit.passes import AHEAD_M, CARRIED_M, MM, SEPARATION_M, Floats, on_belt, unbroken
 
 PASSES = 3
 AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007)
@@ -20,6 +22,8 @@ AHEADS_M = (AHEAD_M, AHEAD_M + 0.0007)
 FRICTIONS = (0.98, 1.0, 1.02)
 """Ours: factors of the static coefficient of friction."""
 SAMPLE_S = 0.01
+CRAWLS_MM = 0.5
+"""Ours: a robot crawls if it makes more than this in a pass and more than the spread of its passes."""
 
 
 @dataclass(frozen=True)
@@ -28,32 +32,46 @@ class Walk:
 
     Attributes:
         scene: The robot.
-        speed_m_s: Speed of the drive, positive [m/s].
+        speed_mm_s: Speed of the drive, positive [mm/s].
         backward: Whether the drive moves from tail to head.
     """
 
     scene: Scene
-    speed_m_s: float
+    speed_mm_s: float
     backward: bool = False
 
 
 @dataclass(frozen=True)
-class Stride:
-    """Passes of one robot under all conditions.
+class Strides:
+    """Passes of robots under all conditions, in arrays of any shape.
 
     Attributes:
-        mean_m: Mean of the passes before it was carried along [m]; of all, where there are none.
-        spread_m: Their standard deviation [m].
+        mean_mm: Mean of the passes before it was carried along [mm]; of all, where there are none.
+        spread_mm: Their standard deviation [mm].
         carried: Share of the conditions in which the drive carried it along.
     """
 
-    mean_m: float
-    spread_m: float
-    carried: float
+    mean_mm: Floats
+    spread_mm: Floats
+    carried: Floats
+
+    @property
+    def crawls(self) -> NDArray[np.bool_]:
+        """Which count as crawling: against the drive, clear of their spread, never carried along."""
+        clear = self.mean_mm > np.maximum(CRAWLS_MM, self.spread_mm)
+        return np.asarray(clear & (self.carried == 0.0))
+
+    def __getitem__(self, key: Any) -> "Strides":
+        """Some of them, as an array is indexed."""
+        return Strides(self.mean_mm[key], self.spread_mm[key], self.carried[key])
+
+    def reshaped(self, *shape: int) -> "Strides":
+        """The same in another shape."""
+        return Strides(*(each.reshape(shape) for each in (self.mean_mm, self.spread_mm, self.carried)))
 
 
-def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M) -> list[Stride]:
-    """Strides of robots, all simulated side by side.
+def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M) -> Strides:
+    """Strides of robots (walks,), all simulated side by side.
 
     Args:
         walks: The robots.
@@ -66,7 +84,7 @@ def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M
     runs = [(walk, ahead, friction) for walk in walks for ahead, friction in conditions]
     ends = [pass_ends_s(walk, ahead) for walk, ahead, _ in runs]
     scenes = [
-        on_belt(walk.scene, walk.speed_m_s, backward=walk.backward, ahead_m=ahead, friction=friction)
+        on_belt(walk.scene, 1e-3 * walk.speed_mm_s, backward=walk.backward, ahead_m=ahead, friction=friction)
         for walk, ahead, friction in runs
     ]
     durations = [SAMPLE_S * math.ceil(end[-1] / SAMPLE_S) for end in ends]
@@ -75,11 +93,12 @@ def measured_strides(walks: Sequence[Walk], aheads_m: Sequence[float] = AHEADS_M
         strides_of(record, end, walk.backward)
         for record, end, (walk, _, _) in zip(records, ends, runs, strict=True)
     ]
-    return [averaged(group) for group in np.array(ways).reshape(len(walks), len(conditions), PASSES)]
+    groups = np.array(ways).reshape(len(walks), len(conditions), PASSES)
+    return Strides(*np.array([averaged(group) for group in groups]).T)
 
 
-def averaged(ways_m: Floats) -> Stride:
-    """Averages the passes of one robot.
+def averaged(ways_m: Floats) -> tuple[float, float, float]:
+    """Mean [mm], spread [mm] and share carried along of the passes of one robot.
 
     A robot that was carried along no longer meets the magnets when the others do: what it does from
     then on is left out of mean and spread.
@@ -88,14 +107,14 @@ def averaged(ways_m: Floats) -> Stride:
         ways_m: Way against the motion of the drive (conditions, passes) [m].
     """
     gone = np.logical_or.accumulate(ways_m < -CARRIED_M, axis=1)
-    kept = ways_m if gone.all() else ways_m[~gone]
-    return Stride(float(kept.mean()), float(kept.std()), float(gone[:, -1].mean()))
+    kept = MM * (ways_m if gone.all() else ways_m[~gone])
+    return float(kept.mean()), float(kept.std()), float(gone[:, -1].mean())
 
 
 def pass_ends_s(walk: Walk, ahead_m: float) -> Floats:
     """When each pass is over: the drive magnet and the next are equally far from the robot (PASSES,) [s]."""
     first_m = ahead_m + 0.5 * walk.scene.body_length_m + 0.5 * SEPARATION_M
-    return np.asarray((first_m + SEPARATION_M * np.arange(PASSES)) / walk.speed_m_s)
+    return np.asarray((first_m + SEPARATION_M * np.arange(PASSES)) / (1e-3 * walk.speed_mm_s))
 
 
 def strides_of(record: Recording, ends_s: Floats, backward: bool) -> Floats:

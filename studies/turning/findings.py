@@ -5,9 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from studies.paper.quantity import number
-from studies.paper.section import table
-from studies.paper.wording import COUNTS, capital, listed
+from studies.kit.page import table
+from studies.kit.words import COUNTS, capital, listed, number
 from studies.turning.passes import Drive, Outcome, Point, Spread
 from studies.turning.plane import ASIDE_MM, Comparison
 from studies.turning.sweeps import HEIGHTS_MM, OFFSET_MM, ROBOTS, TIPPING_OFFSETS_MM

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.paper.lift import HOLD_S, LOW_M, RISE_S
-from studies.paper.scenes import PASS_S, PLANE_M, one_pass, under_middle, values_of
+from studies.kit.passes import HOLD_S, LOW_M, PASS_S, PLANE_M, RISE_S, one_pass, under_middle, values_of
 from studies.turning.passes import MM, rolls_deg
 
 PRESETS = ("paper-3", "paper-4", "paper-5")
