@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from inspect import signature
 from typing import Any
 
 import gymnasium
 
-from magworm_gym.arguments import positive, shown
+from magworm_gym.arguments import choice, positive, shown
 from magworm_gym.scene import AnyScene, episode_steps, load_scene
 from magworm_gym.tasks import Crawl, Reach, Task, Turn
-from magworm_gym.tasks.task import class_at, class_path
+from magworm_gym.tasks.task import DEFINED
 from magworm_gym.vector_env import MagWormVectorEnv
 
 CRAWL_ID = "MagWorm/Crawl-v0"
@@ -73,7 +73,7 @@ def register_task(
     """
     if not (isinstance(task, type) and issubclass(task, Task)) or "<locals>" in task.__qualname__:
         raise ValueError(f"task is {shown(task)}; allowed: a class of tasks at the top of a module")
-    with_task(MagWormVectorEnv, class_path(task), settings)
+    with_task(MagWormVectorEnv, task.path, settings)
     own_scene = {} if scene is None else {"scene": scene}
     if max_episode_steps is None:
         max_episode_steps = episode_steps(load_scene(task.default_scene if scene is None else scene))
@@ -83,7 +83,7 @@ def register_task(
         entry_point=SINGLE,
         vector_entry_point=VECTOR,
         max_episode_steps=positive("max_episode_steps", max_episode_steps),
-        kwargs={"task_class": class_path(task), **own_scene, **settings},
+        kwargs={"task_class": task.path, **own_scene, **settings},
     )
 
 
@@ -120,32 +120,27 @@ def with_task(kind: type, task_class: str | None, arguments: Mapping[str, Any]) 
 
     Args:
         kind: The class.
-        task_class: See :func:`class_path`; None where ``task`` is among the arguments.
+        task_class: :attr:`Task.path`; None where ``task`` is among the arguments.
         arguments: Those of the class and, by name, the settings of the task.
 
     Raises:
         ValueError: An unknown class or argument, a task where the ID chooses it, none where it does not, or a
             setting out of range.
     """
+    given, allowed = dict(arguments), set(signature(kind).parameters)
     if task_class is None:
-        if not isinstance(arguments.get("task"), Task):
-            raise ValueError(f"task is {shown(arguments.get('task'))}; allowed: a Task, such as tasks.Turn()")
-        return _known(kind, arguments)
-    if "task" in arguments:
+        if not isinstance(given.get("task"), Task):
+            raise ValueError(f"task is {shown(given.get('task'))}; allowed: a Task, such as tasks.Turn()")
+    elif "task" in given:
         raise ValueError(
-            f"task is {shown(arguments['task'])}; the ID chooses the task: {CUSTOM_ID} takes one of your own"
+            f"task is {shown(given['task'])}; the ID chooses the task: {CUSTOM_ID} takes one of your own"
         )
-    task = class_at(task_class)
-    names = {setting.name for setting in task.settings()}
-    settings = {name: value for name, value in arguments.items() if name in names}
-    rest = {name: value for name, value in arguments.items() if name not in names}
-    return {**_known(kind, rest, names), "task": task(**settings)}
-
-
-def _known(kind: type, arguments: Mapping[str, Any], settings: Iterable[str] = ()) -> dict[str, Any]:
-    """The arguments, of which the class knows all."""
-    known = set(signature(kind).parameters)
-    if unknown := arguments.keys() - known:
-        allowed = ", ".join(sorted({*known, *settings} - {"task"}))
-        raise ValueError(f"{min(unknown)} is no argument of this environment; allowed: {allowed}")
-    return dict(arguments)
+    else:
+        task = DEFINED[choice("task_class", task_class, tuple(DEFINED))]
+        settings = {one.name for one in task.settings()}
+        given["task"] = task(**{name: given.pop(name) for name in settings & given.keys()})
+        allowed |= settings
+    if unknown := given.keys() - allowed:
+        names = ", ".join(sorted(allowed - {"task"}))
+        raise ValueError(f"{min(unknown)} is no argument of this environment; allowed: {names}")
+    return given

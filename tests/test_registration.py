@@ -147,7 +147,7 @@ def test_a_specification_holds_a_list_of_paths(tmp_path: Path) -> None:
 def test_an_argument_imports_no_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(tmp_path))
     (tmp_path / "sly.py").write_text("raise SystemExit('imported')")
-    with pytest.raises(ValueError, match=r"task_class is 'sly:Task'; allowed: magworm_gym\.tasks"):
+    with pytest.raises(ValueError, match=r"task_class is 'sly:Task'; allowed: 'magworm_gym\.tasks"):
         gymnasium.make_vec(CRAWL_ID, task_class="sly:Task")
 
 

@@ -96,6 +96,13 @@ class Simulation(Protocol):
         """As :meth:`Batch.magnets_present`."""
 
 
+DEFINED: dict[str, type[Task]] = {}
+"""Every class of tasks by its path, the latest where one was defined again, as in a notebook.
+
+A path may come from a file that somebody else wrote, so it is looked up, and nothing is imported for it.
+"""
+
+
 def setting(default: float, low: float, high: float) -> Any:
     """A field of a task: a number that lies from `low` to `high`, as :class:`Task` checks."""
     return field(default=default, metadata={"low": low, "high": high})
@@ -117,6 +124,8 @@ class Task(ABC):
         ValueError: A :func:`setting` is out of range.
     """
 
+    path: ClassVar[str]
+    """Name of the class among all: ``"module:Class"``."""
     default_scene: ClassVar[AnyScene] = "paper-3"
     """Preset, path of a TOML file, or scene of environments that name none."""
     goal_option: ClassVar[GoalOption | None] = None
@@ -130,6 +139,11 @@ class Task(ABC):
     state: dict[str, Floats]
     """What changes in time, by name; arrays (N, …)."""
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.path = f"{cls.__module__}:{cls.__qualname__}"
+        DEFINED[cls.path] = cls
+
     def __post_init__(self) -> None:
         for one in self.settings():
             name, given = f"{one.name} of {type(self).__name__}", getattr(self, one.name)
@@ -142,9 +156,8 @@ class Task(ABC):
         return fields(cls) if is_dataclass(cls) else ()
 
     def arguments(self) -> dict[str, Any]:
-        """What makes it again: its class, as ``"module:Class"``, and its settings by name."""
-        settings = {one.name: getattr(self, one.name) for one in self.settings()}
-        return {"task_class": class_path(type(self)), **settings}
+        """What makes it again: the :attr:`path` of its class, and its settings by name."""
+        return {"task_class": self.path, **{one.name: getattr(self, one.name) for one in self.settings()}}
 
     def prepared(self: AnyTask, scene: Scene, observed: Sequence[Specification], num_envs: int) -> AnyTask:
         """A copy for N environments of a scene, see :meth:`prepare`."""
@@ -207,35 +220,6 @@ class Task(ABC):
     def goal(self, i: int) -> Goal | None:
         """The goal of environment i, to be drawn; None without one."""
         return None
-
-
-def class_path(task: type[Task]) -> str:
-    """Where a class of tasks is found: ``"module:Class"``."""
-    return f"{task.__module__}:{task.__qualname__}"
-
-
-def class_at(path: str) -> type[Task]:
-    """The class of tasks that :func:`class_path` names.
-
-    Nothing is imported: a path may come from a file that somebody else wrote.
-
-    Raises:
-        ValueError: No class of that path has been defined.
-    """
-    known = _defined(Task)
-    if path not in known:
-        raise ValueError(
-            f"task_class is {shown(path)}; allowed: {', '.join(known)}, or import its module first"
-        )
-    return known[path]
-
-
-def _defined(kind: type[Any]) -> dict[str, type[Task]]:
-    """All classes below one, by path; the latest where a path was defined again, as in a notebook."""
-    known: dict[str, type[Task]] = {}
-    for each in kind.__subclasses__():
-        known |= {class_path(each): each, **_defined(each)}
-    return known
 
 
 def _number(name: str, value: Any, low: float, high: float) -> float:
