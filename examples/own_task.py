@@ -16,6 +16,7 @@ class Stop(Task):
     """Reward: what the robot came nearer to the place where it is to stop [mm]."""
 
     default_scene = Path(__file__).with_name("own_scene.toml")
+    reward_unit = "mm"
     parts = (Part("left", "m", 1, -np.inf, np.inf, "distance that is left, negative beyond the place"),)
 
     distance_m: float = setting(0.020, 0.0, 1.0)

@@ -11,7 +11,7 @@ from magworm_gym.tasks.turn import Turn
 TaskName = Literal["crawl", "turn", "reach"]
 """Names of the tasks of this package."""
 
-TASKS: dict[str, type[Task]] = {"crawl": Crawl, "turn": Turn, "reach": Reach}
+TASKS: dict[str, type[Task]] = {task.name: task for task in (Crawl, Turn, Reach)}
 """The tasks of this package, by name."""
 
 __all__ = [

@@ -19,6 +19,8 @@ class Crawl(Task):
     **Terminated**: never; there is no goal.
     """
 
+    reward_unit = "mm"
+
     def evaluate(self, simulation: Simulation, progress_m: Floats, mask: Flags) -> TaskResult:
         """Rewards progress."""
         return TaskResult(MM_PER_M * progress_m, np.zeros(len(mask), np.bool_))

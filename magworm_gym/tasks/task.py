@@ -124,10 +124,14 @@ class Task(ABC):
         ValueError: A :func:`setting` is out of range.
     """
 
+    name: ClassVar[str]
+    """Of the class, in small letters."""
     path: ClassVar[str]
     """Name of the class among all: ``"module:Class"``."""
     default_scene: ClassVar[AnyScene] = "paper-3"
     """Preset, path of a TOML file, or scene of environments that name none."""
+    reward_unit: ClassVar[str] = "1"
+    """What a reward is measured in."""
     goal_option: ClassVar[GoalOption | None] = None
     draws: ClassVar[int] = 0
     """How many random numbers a goal takes."""
@@ -141,7 +145,7 @@ class Task(ABC):
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
-        cls.path = f"{cls.__module__}:{cls.__qualname__}"
+        cls.name, cls.path = cls.__name__.lower(), f"{cls.__module__}:{cls.__qualname__}"
         DEFINED[cls.path] = cls
 
     def __post_init__(self) -> None:
