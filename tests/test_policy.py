@@ -228,6 +228,8 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
     "a part of size true": edited(lambda document: document["observation"][0].update(size=True)),
     "parts that are none": at("observation", ["magnet_x"]),
     "an action without bounds": edited(lambda document: document["action"][0].update(high=None)),
+    "bounds beyond float32": edited(lambda document: document["action"][0].update(high=1e308)),
+    "bounds the wrong way round": edited(lambda document: document["action"][0].update(low=2.0)),
     "arguments that are none": at("arguments", [], "environment"),
     "more scenes than there are": at("scenes", 2),
     "no sentence": edited(lambda document: document.pop("sentence")),

@@ -21,6 +21,8 @@ from magworm_gym.vector_env import MagWormVectorEnv
 
 Singles = NDArray[np.float32]
 
+LARGEST = float(np.finfo(np.float32).max)
+
 
 @dataclass(frozen=True)
 class Policy:
@@ -68,8 +70,12 @@ class Policy:
         ):
             if size != allowed:
                 raise PolicyError(f"{what} {size} numbers; allowed by the specification: {allowed}")
-        if not np.isfinite([self.low, self.high]).all():
-            raise PolicyError("an action has no bounds; allowed: finite ones")
+        for part in self.action:
+            if not -LARGEST <= part.low < part.high <= LARGEST:
+                raise PolicyError(
+                    f"action {part.name!r} has the bounds {part.low} and {part.high}; allowed: finite "
+                    "ones, the lower first"
+                )
 
     @classmethod
     def trained_in(
