@@ -369,9 +369,15 @@ def test_nothing_of_a_folder_is_run(folder: Path, tmp_path: Path, monkeypatch: p
             with pytest.raises(PolicyError):
                 load_policy(crafted)
         shutil.rmtree(crafted)
-    at("num_envs", 3, "environment", "arguments")(folder)
-    with pytest.raises(PolicyError, match="does not take the arguments"):
-        load_policy(folder).make_vec()
+    for name, value in (
+        ("num_envs", 3),
+        ("scene", "paper-4"),
+        ("task", "trap:Trap"),
+        ("task_class", "trap:Trap"),
+    ):
+        at("arguments", {name: value}, "environment")(folder)
+        with pytest.raises(ValueError, match=name):
+            load_policy(folder).make_vec()
     for identifier in ("trap:MagWorm/Crawl-v0", "trap", "CartPole-v1"):
         at("id", identifier, "environment")(folder)
         with pytest.raises(PolicyError, match="no registered environment of worms"):
