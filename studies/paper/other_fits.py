@@ -66,14 +66,14 @@ class OtherFits(Experiment):
         return [[name, *(number(stride) for stride in line)] for name, line in zip(names, lines, strict=True)]
 
     @property
-    def agreeing(self) -> list[str]:
+    def agreeing(self) -> dict[str, int]:
         """Statements of the paper on speed, each with the number of robots of which it holds."""
         three, four, five = np.moveaxis(self.stride_mm, 1, 0)
         slow, peak, crossing, fastest = range(len(SPEEDS_MM_S))
         each = self.stride_mm[:, :, slow]
         statements = {
             "three magnets are slower at 210 mm/s than at 110": three[:, fastest] < three[:, peak],
-            "four are": four[:, fastest] < four[:, peak],
+            "four magnets are slower at 210 mm/s than at 110": four[:, fastest] < four[:, peak],
             "five magnets are faster at 210 mm/s than at 110": five[:, fastest] > five[:, peak],
             "three magnets beat five at 110 mm/s": three[:, peak] > five[:, peak],
             "five beat three at 150 mm/s": five[:, crossing] > three[:, crossing],
@@ -81,4 +81,4 @@ class OtherFits(Experiment):
             "three, four and five differ by less than a quarter at 50 mm/s": np.ptp(each, axis=1)
             < 0.25 * each.min(axis=1),
         }
-        return [f"{what} with {int(holds.sum())}" for what, holds in statements.items()]
+        return {what: int(holds.sum()) for what, holds in statements.items()}
