@@ -22,10 +22,11 @@ repository = Path(__file__).resolve().parent.parent
 assert package.parent != repository, f"{package} is not the installed wheel"
 assert (package / "py.typed").exists() and (package / "_magworm.pyi").exists(), "the wheel is not typed"
 
-worm = gymnasium.make(magworm_gym.CRAWL_ID)
-worm.reset(seed=0)
-observation, _, _, _, _ = worm.step(worm.action_space.sample())
-assert worm.observation_space.contains(observation)
+for identifier in (magworm_gym.CRAWL_ID, magworm_gym.TURN_ID, magworm_gym.REACH_ID):
+    worm = gymnasium.make(identifier)
+    worm.reset(seed=0)
+    observation, _, _, _, _ = worm.step(worm.action_space.sample())
+    assert worm.observation_space.contains(observation)
 
 worms = gymnasium.make_vec(magworm_gym.CRAWL_ID, num_envs=16)
 worms.reset(seed=0)
