@@ -248,9 +248,8 @@ def test_a_page_states_every_figure_and_how_many_agree_and_guesses_why_not():
             return {"pass.peak": 9.0, "lift.robot": 9.0, "stages.wave": 2.0, "stride.crossing": (150.0, 10.0)}
 
     text = paper_page([Found()])
-    assert "Of 1 identification targets 1 are met" in text
-    assert "Of 1 trends that were fitted the model disagrees with 0" in text
-    assert "of 1 figures and statements held back with 1" in text
+    assert "The model meets 1 of 1 identification targets and 0 of 0 exact results" in text
+    assert "It disagrees with 0 of 1 fitted trends, and with 1 of 1 figures" in text
     assert "| Case 1: lift of the middle, `paper-3` | 7.7 mm | 9.00 mm | +16.9 % | held back |" in text
     assert "- *Case 1: lift of the middle, `paper-3`.* The lift belongs" in text
     assert "II: crest" not in text and "150 ± 10 mm/s" in text
