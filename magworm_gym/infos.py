@@ -13,13 +13,17 @@ Infos = dict[str, Any]
 
 def add(infos: Infos, key: str, values: NDArray[Any], mask: Flags) -> None:
     """Adds values (N, …) where mask (N,) is set; where a key holds for no environment they are 0 or None."""
-    if mask.all():  # a step in which no episode ends: most of them
+    before = infos.get(key)
+    if before is None and mask.all():  # a step in which no episode ends: most of them
         infos[key], infos[f"_{key}"] = values.copy(), mask.copy()
         return
-    nothing = np.full_like(values, None) if values.dtype == np.object_ else np.zeros_like(values)
-    chosen = mask.reshape(-1, *(1,) * (values.ndim - 1))
-    infos[key] = np.where(chosen, values, infos.get(key, nothing))
-    infos[f"_{key}"] = mask | infos.get(f"_{key}", False)
+    if before is None:
+        before = (np.empty if values.dtype == np.object_ else np.zeros)(values.shape, values.dtype)
+        infos[f"_{key}"] = np.zeros(len(mask), np.bool_)
+    infos[key] = before
+    if mask.any():
+        infos[key] = np.where(mask.reshape(-1, *(1,) * (values.ndim - 1)), values, before)
+        infos[f"_{key}"] = mask | infos[f"_{key}"]
 
 
 def rows(observations: NDArray[Any]) -> NDArray[np.object_]:
@@ -31,7 +35,7 @@ def rows(observations: NDArray[Any]) -> NDArray[np.object_]:
 
 def reasons(status: NDArray[np.uint8]) -> NDArray[np.object_]:
     """Why each environment broke, in words (N,); None where it runs."""
-    texts = np.full(len(status), None, np.object_)
+    texts = np.empty(len(status), np.object_)  # all None
     for i in np.flatnonzero(status).tolist():
         texts[i] = Batch.status_text(int(status[i]))
     return texts
