@@ -11,7 +11,7 @@ of a second, and what they work on is then as before. Memory that is not there i
 beforehand."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, final
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -138,7 +138,7 @@ class Batch:
         scene: Scene | Sequence[Scene],
         num_envs: int,
         *,
-        lanes: str = "wide",
+        lanes: Literal["wide", "scalar"] = "wide",
         threads: int | None = None,
     ) -> Batch:
         """lanes: "wide" (8, single precision 16) or "scalar"; equal bits. threads: None: all. Raises
@@ -164,10 +164,11 @@ class Batch:
     @property
     def action_specification(self) -> tuple[Specification, ...]: ...
     @property
-    def parameter_names(self) -> tuple[str, ...]: ...
+    def parameter_names(self) -> tuple[str, ...]:
+        """Those that act in every scene of the batch."""
     def set_parameter(self, name: str, factors: ArrayLike) -> None:
         """Factors (N,) of the scene's value, in force from the next reset on; only 1 of a term that the scene
-        leaves out. Raises ValueError."""
+        of an environment leaves out. Raises ValueError."""
     def parameter(self, name: str) -> NDArray[np.float64]:
         """Factors (N,) as set (without what a reset draws)."""
     def set_magnets_present(self, present: ArrayLike) -> None:

@@ -5,10 +5,16 @@ import reprlib
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeAlias, TypeVar, get_args
 
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
+
+RenderMode: TypeAlias = Literal["human", "rgb_array"]
+RENDER_MODES = get_args(RenderMode)
+AnyAutoreset: TypeAlias = AutoresetMode | Literal["NextStep", "SameStep", "Disabled"]
+Lanes: TypeAlias = Literal["wide", "scalar"]
 
 SEED_LIMIT = 2**63
 """Seeds are smaller than this."""

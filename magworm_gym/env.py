@@ -12,7 +12,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.arguments import action_rows
+from magworm_gym.arguments import RENDER_MODES, Lanes, RenderMode, action_rows
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.drawing import Frame
 from magworm_gym.infos import Infos, info_of
@@ -21,7 +21,7 @@ from magworm_gym.rollout import Rollout
 from magworm_gym.scene import AnyScene
 from magworm_gym.specified import Specified
 from magworm_gym.tasks import Task, TaskName
-from magworm_gym.vector_env import RENDER_MODES, Lanes, MagWormVectorEnv, RenderMode
+from magworm_gym.vector_env import MagWormVectorEnv
 from magworm_gym.worlds import Observations
 
 

@@ -19,13 +19,14 @@ from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env.base_vec_env import VecEnv, VecEnvIndices
 
 from magworm_gym import snapshot
+from magworm_gym.arguments import Lanes, RenderMode
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.infos import Infos, info_of
 from magworm_gym.randomise import AnyRandomise
 from magworm_gym.reset_options import MASK, AnyOptions
 from magworm_gym.scene import AnyScenes
 from magworm_gym.tasks import Task, TaskName
-from magworm_gym.vector_env import Lanes, MagWormVectorEnv, RenderMode
+from magworm_gym.vector_env import MagWormVectorEnv
 from magworm_gym.worlds import Observations
 
 OF_ALL = ("close", "set_state", "step")

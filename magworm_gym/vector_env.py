@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import deepcopy
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any
 
 import numpy as np
 from gymnasium import logger
@@ -13,13 +13,22 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.arguments import action_rows, choice, indices, positive, seeds_of
+from magworm_gym.arguments import (
+    RENDER_MODES,
+    AnyAutoreset,
+    Lanes,
+    RenderMode,
+    action_rows,
+    choice,
+    indices,
+    positive,
+    seeds_of,
+)
 from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.drawing import Drawing, Frame
-from magworm_gym.episodes import Episodes
 from magworm_gym.infos import Flags, Infos
 from magworm_gym.randomise import AnyRandomise, load_randomise
-from magworm_gym.reset_options import Allowed, AnyOptions
+from magworm_gym.reset_options import AnyOptions
 from magworm_gym.robots import Robots
 from magworm_gym.rollout import Rollout, roll_out
 from magworm_gym.scene import AnyScenes, episode_steps, load_scenes
@@ -27,12 +36,7 @@ from magworm_gym.spaces import AnyPart, box, layout
 from magworm_gym.specified import Specified
 from magworm_gym.state import pack, restore
 from magworm_gym.tasks import Task, TaskName, task_of
-from magworm_gym.worlds import Observations, Worlds
-
-RenderMode: TypeAlias = Literal["human", "rgb_array"]
-RENDER_MODES = get_args(RenderMode)
-AnyAutoreset: TypeAlias = AutoresetMode | Literal["NextStep", "SameStep", "Disabled"]
-Lanes: TypeAlias = Literal["wide", "scalar"]
+from magworm_gym.worlds import Observations, Worlds, controlled_batch
 
 RANDOM = ("_np_random", "_np_random_seed")
 """Attributes behind ``np_random``, which a reset changes before the simulator is asked."""
@@ -116,26 +120,18 @@ class MagWormVectorEnv(Specified, VectorEnv[Observations, ArrayLike, NDArray[Any
     ) -> None:
         settings = task_of(task)
         scenes = load_scenes(settings.default_scene if scene is None else scene)
-        for one in scenes:
-            if not one.controlled:
-                raise ValueError(
-                    f"scene {one.name!r} has no drive that follows actions (drive.motion 'controlled')"
-                )
         self.num_envs = positive("num_envs", num_envs)
         self.render_mode = choice("render_mode", render_mode, (None, *RENDER_MODES))
         self._render_envs = indices("render_envs", render_envs, self.num_envs)
         autoreset, drawn = AutoresetMode(autoreset_mode), load_randomise(randomise)
-        batch = Batch(scenes, self.num_envs, lanes=lanes, threads=threads)
-        first = batch.scene
-        limit = episode_steps(first) if max_episode_steps is None else max_episode_steps
+        batch = controlled_batch(scenes, self.num_envs, lanes, threads)
+        limit = episode_steps(batch.scene) if max_episode_steps is None else max_episode_steps
         limit = positive("max_episode_steps", limit)
-        ready = settings.prepared(first, batch.observation_specification, self.num_envs)
-        self._allowed = Allowed.of(batch, ready)
-        episodes = Episodes.before_the_first(self.num_envs, self._allowed.sizes)
-        self._worlds = Worlds(batch, ready, Robots(batch, drawn), episodes, autoreset, limit)
+        ready = settings.prepared(batch.scene, batch.observation_specification, self.num_envs)
+        self._worlds = Worlds(batch, ready, Robots(batch, drawn), autoreset, limit)
         self.metadata = {
             "render_modes": list(RENDER_MODES),
-            "render_fps": max(1, round(1.0 / first.control_step_s)),
+            "render_fps": max(1, round(1.0 / self.scene.control_step_s)),
             "autoreset_mode": autoreset,
         }
         self.single_observation_space = box(self.observation_specification)
@@ -205,7 +201,7 @@ class MagWormVectorEnv(Specified, VectorEnv[Observations, ArrayLike, NDArray[Any
             ValueError: A seed or an option is not allowed; nothing is changed then.
         """
         seeds = seeds_of(seed, self.num_envs)
-        request = self._allowed.read(options, self.num_envs)
+        request = self._worlds.allowed.read(options, self.num_envs)
         with Bookkeeping() as books, put_back(self, RANDOM):
             if isinstance(seed, (int, np.integer)):
                 super().reset(seed=int(seed))

@@ -3,25 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch
+from magworm_gym._magworm import Batch, Scene
+from magworm_gym.arguments import Lanes
 from magworm_gym.bookkeeping import Bookkeeping, put_back
 from magworm_gym.draws import TASK, next_episodes, uniform
 from magworm_gym.episodes import Episodes
 from magworm_gym.infos import Flags, Infos, add, rows
 from magworm_gym.outcome import outcome_of, step_infos
-from magworm_gym.reset_options import ResetOptions
+from magworm_gym.reset_options import Allowed, ResetOptions
 from magworm_gym.robots import Robots
 from magworm_gym.tasks import Task
 
 Observations = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Stepped = tuple[Observations, Floats, Flags, Flags, Infos]
+
+
+def controlled_batch(scenes: list[Scene], num_envs: int, lanes: Lanes, threads: int | None) -> Batch:
+    """A batch whose drives follow actions.
+
+    Raises:
+        ValueError: One of the scenes has a drive that does not.
+    """
+    for scene in scenes:
+        if not scene.controlled:
+            raise ValueError(
+                f"scene {scene.name!r} has no drive that follows actions (drive.motion 'controlled')"
+            )
+    return Batch(scenes, num_envs, lanes=lanes, threads=threads)
 
 
 @dataclass
@@ -32,17 +47,23 @@ class Worlds:
         batch: The simulation.
         task: What is asked of the worms.
         robots: Which robot each of them is.
-        episodes: Seeds, counts and what options ask for.
         autoreset: When an episode that ended is followed by the next.
         max_episode_steps: Control steps until an episode is truncated.
+        allowed: What options of a reset may say.
+        episodes: Seeds, counts and what options ask for.
     """
 
     batch: Batch
     task: Task
     robots: Robots
-    episodes: Episodes
     autoreset: AutoresetMode
     max_episode_steps: int
+    allowed: Allowed = field(init=False)
+    episodes: Episodes = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.allowed = Allowed.of(self.batch, self.task)
+        self.episodes = Episodes.before_the_first(self.batch.num_envs, self.allowed.sizes)
 
     def __setstate__(self, state: dict[str, object]) -> None:
         """A pickle may make arrays read-only, which a task need not expect of its own."""

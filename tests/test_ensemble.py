@@ -170,6 +170,22 @@ def test_names_and_files_stand_in_a_list_too() -> None:
     assert [scene.name for scene in env.unwrapped.scenes] == ["paper-3", "paper-3"]
 
 
+def test_a_factor_is_checked_by_the_scene_of_its_environment() -> None:
+    first = Scene.preset("paper-3")
+    without = first.with_values({"magnetic_terms.mutual": False})
+    assert "mutual" in Batch(first, 1).parameter_names
+    for several in ([first, without], [without, first]):
+        batch = Batch(several, 4)
+        assert "mutual" not in batch.parameter_names
+        factors = np.where(batch.scene_indices == several.index(first), 0.5, 1.0)
+        batch.set_parameter("mutual", factors)
+        np.testing.assert_array_equal(batch.parameter("mutual"), factors)
+        refused = f"^factor of mutual in environment {2 * several.index(without)} is 0.5; allowed: 1, "
+        with pytest.raises(ValueError, match=refused):
+            batch.set_parameter("mutual", np.full(4, 0.5))
+        np.testing.assert_array_equal(batch.parameter("mutual"), factors)
+
+
 def test_each_environment_is_drawn_as_its_scene() -> None:
     pytest.importorskip("PIL")
     first = Scene.preset("paper-3")

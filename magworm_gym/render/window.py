@@ -41,6 +41,7 @@ class Window:
 
     def close(self) -> None:
         """Closes the window."""
+        del self._renderer  # before the window that it draws on
         self._window.destroy()
 
 
