@@ -11,7 +11,6 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
 
-from magworm_gym._magworm import Batch, Scene
 from magworm_gym.arguments import RENDER_MODES, Lanes, RenderMode, action_rows
 from magworm_gym.bookkeeping import Bookkeeping
 from magworm_gym.drawing import Frame
@@ -74,6 +73,7 @@ class MagWormEnv(Specified, gymnasium.Env[Observations, NDArray[Any]]):
             task=task,
             randomise=randomise,
         )
+        self._worlds = self._worms._worlds
         self.render_mode = render_mode
         self.metadata = {key: self._worms.metadata[key] for key in ("render_modes", "render_fps")}
         self.observation_space = self._worms.single_observation_space
@@ -88,31 +88,6 @@ class MagWormEnv(Specified, gymnasium.Env[Observations, NDArray[Any]]):
     @_np_random.setter
     def _np_random(self, value: np.random.Generator | None) -> None:
         self._worms._np_random = value
-
-    @property
-    def batch(self) -> Batch:
-        """The simulation itself, with arrays of leading length 1, to read from."""
-        return self._worms.batch
-
-    @property
-    def scene(self) -> Scene:
-        """The scene."""
-        return self._worms.scene
-
-    @property
-    def task(self) -> Task:
-        """What is asked of the worm."""
-        return self._worms.task
-
-    @property
-    def max_episode_steps(self) -> int:
-        """Control steps until an episode is truncated."""
-        return self._worms.max_episode_steps
-
-    @property
-    def observation_layout(self) -> dict[str, slice]:
-        """Where each named part stands in an observation."""
-        return self._worms.observation_layout
 
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from abc import abstractmethod
 from copy import copy
+from dataclasses import asdict
 from enum import Enum
 from os import PathLike, fspath
 from typing import Any
@@ -12,21 +12,18 @@ from typing import Any
 import numpy as np
 from gymnasium.envs.registration import EnvSpec
 
+from magworm_gym.described import Described
+from magworm_gym.randomise import Randomise
 from magworm_gym.tasks import Task
 
 UNLIMITED = sys.maxsize
 """Control steps of an episode without a limit."""
 
 
-class Specified:
+class Specified(Described):
     """Environments whose ``spec`` tells their limit, and arguments as JSON can hold them."""
 
     _spec: EnvSpec | None = None
-
-    @property
-    @abstractmethod
-    def max_episode_steps(self) -> int:
-        """Control steps until an episode is truncated."""
 
     @property
     def spec(self) -> EnvSpec | None:
@@ -48,6 +45,8 @@ class Specified:
 
 def _plain(value: Any) -> Any:
     """Paths as text, numbers and arrays of NumPy as Python's, modes as their values; all else as it is."""
+    if isinstance(value, Randomise):
+        return asdict(value)
     if isinstance(value, PathLike):
         return fspath(value)
     if isinstance(value, Enum):

@@ -12,7 +12,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from magworm_gym._magworm import Batch, Scene
+from magworm_gym._magworm import Scene
 from magworm_gym.arguments import (
     RENDER_MODES,
     AnyAutoreset,
@@ -32,7 +32,7 @@ from magworm_gym.reset_options import AnyOptions
 from magworm_gym.robots import Robots
 from magworm_gym.rollout import Rollout, roll_out
 from magworm_gym.scene import AnyScenes, episode_steps, load_scenes
-from magworm_gym.spaces import AnyPart, box, layout
+from magworm_gym.spaces import box
 from magworm_gym.specified import Specified
 from magworm_gym.state import pack, restore
 from magworm_gym.tasks import Task, TaskName, task_of
@@ -141,44 +141,14 @@ class MagWormVectorEnv(Specified, VectorEnv[Observations, ArrayLike, NDArray[Any
         self._action_shape = (self.num_envs, sum(part.size for part in batch.action_specification))
 
     @property
-    def batch(self) -> Batch:
-        """The simulation itself, to read poses and times from. Change it through `reset` and `step` only."""
-        return self._worlds.batch
-
-    @property
-    def scene(self) -> Scene:
-        """The scene of every environment; the first of several, whose shape all have."""
-        return self.batch.scene
-
-    @property
     def scenes(self) -> tuple[Scene, ...]:
         """The scenes; ``batch.scene_indices`` (N,) says which of them each environment has."""
         return self.batch.scenes
 
     @property
-    def max_episode_steps(self) -> int:
-        """Control steps until an episode is truncated."""
-        return self._worlds.max_episode_steps
-
-    @property
-    def task(self) -> Task:
-        """What is asked of the worms."""
-        return self._worlds.task
-
-    @property
     def autoreset_mode(self) -> AutoresetMode:
         """When an episode that ended is followed by the next."""
         return self._worlds.autoreset
-
-    @property
-    def observation_specification(self) -> tuple[AnyPart, ...]:
-        """Name, unit, size and bounds of each part of an observation: the simulator's, then the task's."""
-        return (*self.batch.observation_specification, *self.task.parts)
-
-    @property
-    def observation_layout(self) -> dict[str, slice]:
-        """Where each named part stands in an observation."""
-        return layout(self.observation_specification)
 
     def reset(
         self,

@@ -163,8 +163,10 @@ def test_gymnasium_makes_them() -> None:
         env.reset(seed=0)
         env.step(np.zeros(env.action_space.shape))
         env.close()
-    env = gymnasium.make(CRAWL_ID, randomise={"parameters": 0.1})
-    assert env.spec is not None and "parameters" in env.spec.to_json()
+    env = gymnasium.make(CRAWL_ID, randomise=BOTH)
+    assert env.spec is not None
+    again = gymnasium.make(gymnasium.envs.registration.EnvSpec.from_json(env.spec.to_json()))
+    assert data_equivalence(env.reset(seed=0), again.reset(seed=0), exact=True)
 
 
 @pytest.mark.parametrize(
