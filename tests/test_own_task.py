@@ -17,7 +17,8 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 from magworm_gym import CRAWL_ID, CUSTOM_ID, MagWormVectorEnv, arguments_of, register_task
-from magworm_gym.tasks import Crawl, Simulation, TaskResult, Turn
+from magworm_gym.spaces import Part
+from magworm_gym.tasks import Crawl, GoalOption, Simulation, TaskResult, Turn
 from magworm_gym.testing import check_vector_env
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -143,6 +144,34 @@ def test_an_entry_is_replaced() -> None:
         assert gymnasium.spec("Own/Again-v0").max_episode_steps == steps
     assert arguments_of("Own/Again-v0")["max_episode_steps"] == 9
     assert arguments_of(CRAWL_ID, max_episode_steps=3)["max_episode_steps"] == 3
+
+
+class Aim(Crawl):
+    """Has a goal in the plane, and tells it."""
+
+    goal_option = GoalOption("aim_m", (), 1.0)
+    draws = 1
+    parts = (Part("aim", "m", 1, -1.0, 1.0, "the goal"),)
+
+    def prepare(self, scene: Any, observed: Any, num_envs: int) -> None:
+        self.state = {"aim_m": np.zeros((num_envs, 1))}
+
+    def begin(self, simulation: Simulation, mask: Any, requested_goal: Any, uniform: Any) -> None:
+        aim_m = np.where(np.isnan(requested_goal), uniform, requested_goal)
+        self.state["aim_m"] = np.where(mask[:, np.newaxis], aim_m, self.state["aim_m"])
+
+    def observe(self, simulation: Simulation) -> Any:
+        return self.state["aim_m"]
+
+
+def test_goals_of_one_s_own_are_drawn_or_given() -> None:
+    worms = MagWormVectorEnv(2, task=Aim(), threads=1)
+    drawn = worms.reset(seed=0)[0][:, -1]
+    assert len(set(drawn)) == 2 and (drawn >= 0.0).all()
+    assert worms.reset(seed=0, options={"aim_m": [-0.5, 0.5]})[0][:, -1].tolist() == [-0.5, 0.5]
+    with pytest.raises(ValueError, match=r"aim_m.*is 2; allowed: -1 to 1"):
+        worms.reset(options={"aim_m": 2})
+    np.testing.assert_array_equal(worms.reset(seed=0)[0][:, -1], drawn)
 
 
 class Broad(Crawl):

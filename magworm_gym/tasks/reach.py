@@ -51,6 +51,7 @@ class Reach(Task):
 
     default_scene = "turn-3-pair"
     reward_unit = "mm"
+    needs_space = True
     goal_option = GoalOption("goal_m", (2,), 1.0)
     draws = 2
 

@@ -132,6 +132,8 @@ class Task(ABC):
     """Preset, path of a TOML file, or scene of environments that name none."""
     reward_unit: ClassVar[str] = "1"
     """What a reward is measured in."""
+    needs_space: ClassVar[bool] = False
+    """Whether scenes in the plane are refused."""
     goal_option: ClassVar[GoalOption | None] = None
     draws: ClassVar[int] = 0
     """How many random numbers a goal takes."""
@@ -165,7 +167,7 @@ class Task(ABC):
 
     def prepared(self: AnyTask, scene: Scene, observed: Sequence[Specification], num_envs: int) -> AnyTask:
         """A copy for N environments of a scene, see :meth:`prepare`."""
-        if self.goal_option is not None and scene.dimensions != 3:
+        if self.needs_space and scene.dimensions != 3:
             raise ValueError(
                 f"{type(self).__name__} needs a scene in space (dimensions = 3); {scene.name!r} is in the "
                 "plane"

@@ -44,6 +44,7 @@ class Turn(Task):
 
     default_scene = "turn-3-pair"
     reward_unit = "°"
+    needs_space = True
     goal_option = GoalOption("goal_deg", (), 180.0)
     draws = 1
     uses_magnet_poses = True
