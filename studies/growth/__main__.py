@@ -14,9 +14,9 @@ from studies.growth.memory import memory
 from studies.growth.page import PLACES, Results, page
 from studies.growth.picture import picture
 from studies.growth.sweeps import SWEEPS
-from studies.paper.figures import save
+from studies.kit.figures import save
+from studies.kit.timing import Stopwatch
 from studies.ppo_share import CASES, rows, share
-from studies.stopwatch import Stopwatch
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent.parent / "docs"

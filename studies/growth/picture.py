@@ -6,7 +6,7 @@ from matplotlib.ticker import NullFormatter
 
 from studies.growth.page import PLACES, Results
 from studies.growth.sweeps import SWEEPS
-from studies.paper.figures import BLUE, ORANGE, PAPER, legend_above, panels
+from studies.kit.figures import BLUE, ORANGE, REFERENCE, legend_above, panels
 
 SHADES = {False: BLUE, True: ORANGE}
 DRAWN = ("environments", "nodes", "magnets", "drives")
@@ -26,7 +26,7 @@ def picture(results: Results) -> Any:
             axis.plot(sizes, wall_ms, "o:", mfc="white", lw=0.9, label=f"{place}, wall", **look)
             axis.plot(sizes, processor_ms, "o-", label=f"{place}, processor", **look)
             slope = [processor_ms[-1] * size / sizes[-1] for size in sizes]
-            axis.plot(sizes, slope, "--", color=PAPER, lw=0.7, zorder=1)
+            axis.plot(sizes, slope, "--", color=REFERENCE, lw=0.7, zorder=1)
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel(sweep.title)

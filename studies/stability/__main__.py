@@ -7,7 +7,8 @@ python -m studies.stability --long    # every value in space as well, and every 
 import argparse
 from pathlib import Path
 
-from studies.paper.figures import save
+from studies.kit.figures import save
+from studies.kit.timing import Stopwatch
 from studies.stability.axes import ALONE, CROSSED
 from studies.stability.cases import alone, crossed, every_pair, judge
 from studies.stability.data import energy_csv, limits_csv, outcomes_csv, starts_csv
@@ -16,7 +17,6 @@ from studies.stability.limits import limits
 from studies.stability.page import IMAGES, page
 from studies.stability.pictures import robot_map, rod_map, start_strip
 from studies.stability.starts import starts, untyings
-from studies.stopwatch import Stopwatch
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent.parent / "docs"

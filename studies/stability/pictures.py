@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Recording
-from studies.paper.figures import BLUE, FAINT, INK, RED, panels
+from studies.kit.figures import BLUE, FAINT, INK, RED, panels
 from studies.stability.axes import CROSSED, Axis
 from studies.stability.cases import INTEGRATORS, VERDICTS, Outcome
 from studies.stability.starts import WATCHED_MS, watched

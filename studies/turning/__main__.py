@@ -6,8 +6,8 @@ python -m studies.turning    # docs/turning.md, docs/images/turning/, studies/tu
 import argparse
 from pathlib import Path
 
-from studies.paper.figures import save
-from studies.stopwatch import Stopwatch
+from studies.kit.figures import save
+from studies.kit.timing import Stopwatch
 from studies.turning.data import plane_csv, points_csv, tipping_csv
 from studies.turning.page import IMAGES, page
 from studies.turning.passes import outcomes, points

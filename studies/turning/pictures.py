@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm
 from matplotlib.ticker import MaxNLocator
 
-from studies.paper.figures import BY_MAGNETS, PAPER, STYLE, legend_above, panels
-from studies.paper.wording import COUNTS, capital
+from studies.kit.figures import BY_MAGNETS, REFERENCE, STYLE, legend_above, panels
+from studies.kit.words import COUNTS, capital
 from studies.turning.passes import TIPPED_DEG, Drive, Outcome, Point, Spread
 from studies.turning.sweeps import HEIGHTS_MM, OFFSET_MM, ROBOTS, TIPPING_OFFSETS_MM
 
@@ -76,7 +76,7 @@ def _curves(
         axis.plot(
             places[gone], level, "x", color=colour, ms=5.0, transform=axis.get_xaxis_transform(), zorder=5
         )
-    axis.axhline(0.0, color=PAPER, lw=0.6)
+    axis.axhline(0.0, color=REFERENCE, lw=0.6)
     axis.margins(y=0.22)
 
 
@@ -100,7 +100,7 @@ def roll_against_offset(points: Sequence[Point]) -> Any:
                     lw=1.2,
                     label=f"foot {place + 1}, {kind}",
                 )
-        axis.axhline(TIPPED_DEG, color=PAPER, lw=0.8, ls=":")
+        axis.axhline(TIPPED_DEG, color=REFERENCE, lw=0.8, ls=":")
         axis.set_title(f"{capital(COUNTS[count])} magnets", fontsize=9)
         axis.set_xlabel("offset of the drive [mm]")
         axis.set_xticks(range(0, 16, 3))
