@@ -51,7 +51,8 @@ turning-map: install-test  ## how far a pass beside the robot turns it, when it 
 	$(VENV_PYTHON) -m studies.turning
 
 study-error: install-test  ## error against run time: docs/performance.md; minutes
-	$(VENV_PYTHON) -m studies.error
+	$(VENV_PYTHON) -m studies measure error
+	$(VENV_PYTHON) -m studies render error
 
 study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes
 	$(VENV_PYTHON) -m studies.growth

@@ -5,6 +5,7 @@ import sys
 from studies.kit.study import main
 
 MODULES = {
+    "error": "studies.error.study",
     "needs": "studies.needs.study",
     "paper": "studies.paper.study",
     "peak": "studies.peak.study",

@@ -1,10 +1,9 @@
-"""Environment steps per second, beside the errors of the step they are taken with, in the plane and in space.
+"""Environment steps per second in the plane and in space.
 
 Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
 (space), in lanes and one by one, in double and single precision, on all cores and on one, each the median of
-several runs after a warm-up, with what the contact solve took; and what passes of the drive give at several
-solver steps against steps of 0.05 ms: stride in the plane, stride and yaw in space, there also with friction
-that does not fall as a foot begins to slide. About five minutes.
+several runs after a warm-up, with what the contact solve took. What steps of the solver cost in accuracy is
+in ``docs/performance.md``. A minute.
 
     python -m studies.throughput --out runs/bench/throughput.json
 """
@@ -22,7 +21,6 @@ from typing import Any
 import gymnasium
 
 from magworm_gym import Scene
-from studies.step_error import EVEN_FRICTION, Converged, plane, space
 
 ENVIRONMENTS = 256
 CONTROL_STEPS = 50
@@ -116,8 +114,8 @@ def summary(task: str, scene: str, repetitions: int) -> dict[str, Any]:
     }
 
 
-def speeds(result: dict[str, Any]) -> list[str]:
-    """Lines about the speed of a scene."""
+def report(result: dict[str, Any]) -> str:
+    """A dimension as text."""
     lines = [
         f"{result['scene']}, {result['environments']} environments, control step"
         f" {result['control_step_s']} s, {result['cores']} cores",
@@ -129,15 +127,6 @@ def speeds(result: dict[str, Any]) -> list[str]:
             f"{name:<30}{rate:>9,.0f} environment steps/s ({low:,.0f} to {high:,.0f});"
             f" {work['factorisations']:.2f} systems, {work['trials']:.2f} trials a step of a block"
         )
-    return lines
-
-
-def report(result: dict[str, Any], errors: dict[str, Converged]) -> str:
-    """A dimension as text."""
-    lines = speeds(result)
-    for name, error in errors.items():
-        what, unit = name.rsplit("_", 1)
-        lines += error.lines(what.replace("_", " "), {"mm": "mm", "deg": "°"}[unit])
     return "\n".join(lines)
 
 
@@ -147,30 +136,15 @@ def main() -> None:
     parser.add_argument("--repetitions", type=int, default=7, help="runs whose median is taken")
     parser.add_argument("--out", type=Path, help="JSON file to write")
     arguments = parser.parse_args()
-    speed_of = {
+    found = {
         "plane": summary("MagWorm/Crawl-v0", "paper-3", arguments.repetitions),
         "space": summary("MagWorm/Turn-v0", "turn-3", arguments.repetitions),
     }
-    stride, yaw = space()
-    even_stride, even_yaw = space(EVEN_FRICTION)
-    errors = {
-        "plane": {"stride_mm": plane("paper-3")},
-        "space": {
-            "stride_mm": stride,
-            "yaw_deg": yaw,
-            "stride_at_even_friction_mm": even_stride,
-            "yaw_at_even_friction_deg": even_yaw,
-        },
-    }
-    for dimension, speed in speed_of.items():
-        print(report(speed, errors[dimension]))
+    for result in found.values():
+        print(report(result))
     if arguments.out is not None:
-        data = {
-            dimension: speed | {name: error.data() for name, error in errors[dimension].items()}
-            for dimension, speed in speed_of.items()
-        }
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        arguments.out.write_text(json.dumps(data, indent=2) + "\n")
+        arguments.out.write_text(json.dumps(found, indent=2) + "\n")
 
 
 if __name__ == "__main__":

@@ -15,19 +15,20 @@ PROMISED = {"fast": 0.02, "balanced": 0.005}
 """Greatest error of the mean stride of 33 passes in the plane, against a converged reference."""
 
 
-def with_word(word: object) -> Scene:
-    return Scene.preset("paper-3").with_values({"solver.accuracy": word})
+def with_word(word: object, preset: str = "paper-3") -> Scene:
+    return Scene.preset(preset).with_values({"solver.accuracy": word})
 
 
 def test_words_are_replaced_by_what_they_stand_for() -> None:
     text = with_word("fast").to_toml()
     assert "accuracy" not in text
-    assert settings_of("fast", "paper-3") == Settings(5.0, 4, 2, precision="single", foot_end=2)
-    assert settings_of("fast", "turn-3").step_ms < settings_of("fast", "paper-3").step_ms
+    fast = settings_of(with_word("fast"))
+    assert fast == Settings(5.0, 4, 2, precision="single", foot_end=2)
+    assert settings_of(with_word("fast", "turn-3")).step_ms < fast.step_ms
 
 
 def test_each_word_is_finer_than_the_one_before() -> None:
-    found = [settings_of(word, "paper-3") for word in LEVELS]
+    found = [settings_of(with_word(word)) for word in LEVELS]
     for coarse, fine in pairwise(found):
         assert fine.step_ms < coarse.step_ms
         assert fine.elements > coarse.elements
@@ -49,8 +50,6 @@ def test_the_words_keep_the_stride() -> None:
     case = crawl()
     reference = case.run(case.check)
     for word, promised in PROMISED.items():
-        found = errors(case.run(settings_of(word, "paper-3")), reference, {})
-        assert found is not None
-        stride = found.figures["stride"]
-        assert abs(stride.mean) <= promised, (word, stride)
+        stride, *_ = errors(case.run(settings_of(with_word(word))), reference, {})
+        assert stride.figure == "stride" and abs(stride.mean) <= promised, (word, stride)
     assert np.mean(reference.figures["stride"]) == pytest.approx(4.11, rel=0.02)

@@ -1,27 +1,24 @@
 """Peers on the cantilevers: who is left out and why, steps, errors, tables, the rod with magnets."""
 
-import csv
 import importlib.metadata
-import sys
-from io import StringIO
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
-
 from magworm_gym import Scene
 from magworm_gym.magnet import wrench
 from studies.error.magnets import PLACES_M, POLARITIES, ROBOT
-from studies.error.page import peer_table
-from studies.error.peers import all_runs, cantilever, missing
+from studies.error.peers import cantilever
 from studies.error.peers.cantilever import tip_only
 from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, MagnetRod, magnet_inertia, magnet_rod
 from studies.error.peers.measure import Measured, Series, Track, apart, fewest_steps, measured
-from studies.error.peers.runs import ELASTICA, PEERS, peer_run, reference_mm
-from studies.error.peers.table import COLUMNS, peers_csv, peers_text
+from studies.error.peers.runs import ELASTICA, PEERS, peer_run, reference_mm, why_missing
+from studies.error.study import run_peers
 
+PEERS_CSV = """\
+case,peer,scheme,version,elements,step_s,tip_x_mm,tip_y_mm,error,own_error,wall_s
+cantilever,PyElastica,position Verlet,1.2,9,0.001,50,-10,0.06,0.04,0.5
+"""
 INFINITE = tip_only(float("nan"), float("nan"))
 
 
@@ -30,42 +27,42 @@ def run_at(tip_mm: Track, finest_mm: Track):
     return peer_run(PEERS[0], "1.2", Series("scheme", [run], finest_mm), run, tip_only(*cantilever.TIP_MM))
 
 
-def test_peers_that_are_not_installed_are_left_out_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_peers_that_are_not_installed_are_left_out_with_a_sentence(monkeypatch, tmp_path, capsys) -> None:
     def absent(distribution: str) -> str:
         raise importlib.metadata.PackageNotFoundError(distribution)
 
     monkeypatch.setattr(importlib.metadata, "version", absent)
-    assert all_runs() == []
-    assert [found.name for found in missing()] == [peer.name for peer in PEERS]
-    for peer, found in zip(PEERS, missing(), strict=True):
-        assert f"{peer.packages[0].distribution} is not installed" in found.sentence
+    monkeypatch.setattr("studies.error.study.DATA", tmp_path)
+    (tmp_path / "peers.csv").write_text(PEERS_CSV)
+    run_peers()
+    sentences = capsys.readouterr().out.splitlines()
+    for peer, sentence in zip(PEERS, sentences, strict=True):
+        assert f"{peer.name} is left out: {next(iter(peer.packages))} is not installed" in sentence
+    assert (tmp_path / "peers.csv").read_text() == PEERS_CSV, "what was measured elsewhere stays"
 
 
 def test_the_package_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     def elastica_only(distribution: str) -> str:
-        if distribution != ELASTICA.distribution:
+        if distribution != ELASTICA[0]:
             raise importlib.metadata.PackageNotFoundError(distribution)
         return "1.0.0"
 
     monkeypatch.setattr(importlib.metadata, "version", elastica_only)
-    sentences = {found.name: found.sentence for found in missing()}
-    assert "PyElastica" not in sentences
-    assert "magpylib is not installed" in sentences["PyElastica with magpylib"]
+    sentences = {peer.name: why_missing(peer) for peer in PEERS}
+    assert sentences["PyElastica"] is None
+    assert "magpylib is not installed" in str(sentences["PyElastica with magpylib"])
 
 
 def test_another_major_version_is_left_out_with_both_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.metadata, "version", lambda _: "4.0.0")
-    assert all_runs() == []
-    assert all(
-        f"4.0.0 is installed, not {peer.packages[0].major}" in found.sentence
-        for peer, found in zip(PEERS, missing(), strict=True)
-    )
+    for peer in PEERS:
+        assert f"4.0.0 is installed, not {next(iter(peer.packages.values()))}" in str(why_missing(peer))
 
 
 def test_a_peer_of_the_right_version_is_not_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    majors = {package.distribution: f"{package.major}.7.1" for peer in PEERS for package in peer.packages}
+    majors = {package: f"{major}.7.1" for peer in PEERS for package, major in peer.packages.items()}
     monkeypatch.setattr(importlib.metadata, "version", majors.__getitem__)
-    assert missing() == []
+    assert [why_missing(peer) for peer in PEERS] == [None] * len(PEERS)
 
 
 def test_the_case_is_that_of_the_preset() -> None:
@@ -129,23 +126,6 @@ def test_each_mesh_is_run_at_its_longest_stable_step_and_at_half_of_it() -> None
         assert short.step_s == pytest.approx(0.5 * long.step_s)
         assert 0.1 / 1.2 <= long.step_s * long.elements <= 0.1
         assert long.track_mm.tolist() == [[[float(long.elements), 0.0]]]
-
-
-def test_the_table_has_a_row_for_each_run() -> None:
-    runs = [run_at(tip_only(50.0, -10.0), tip_only(51.0, -10.0))]
-    read = list(csv.DictReader(StringIO(peers_csv(runs))))
-    assert tuple(read[0]) == COLUMNS
-    assert [row["name"] for row in read] == ["PyElastica, scheme"]
-    assert float(read[0]["tip_y_mm"]) == -10.0
-    assert float(read[0]["error"]) == pytest.approx(runs[0].error, abs=1e-5)
-    assert len(peers_text(runs).splitlines()) == 2
-
-
-def test_distances_of_magnets_are_written_in_millimetres() -> None:
-    row = dict(
-        zip(COLUMNS, ["magnets", "peer", "1.2", "17", "1e-4", "40", "21", "0.01", "0.001", "2"], strict=True)
-    )
-    assert "| peer | 1.2 | 17 | 0.1 ms | 0.540 mm | 0.054 mm | 2.00 s |" in peer_table("magnets", [row])
 
 
 def moment_of_inertia(rod: MagnetRod, middle: int) -> float:

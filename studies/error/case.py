@@ -3,13 +3,9 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from magworm_gym import Recording, Scene, record_scenes
 from studies.error.settings import Settings
-
-Floats = NDArray[np.float64]
+from studies.kit.passes import Floats
 
 
 @dataclass(frozen=True)
@@ -51,34 +47,32 @@ class Case:
     Attributes:
         name: Short, for files.
         title: For people.
-        text: What is run and read, in sentences.
         body: "worm" or "rod".
         scenes: The runs, as presets with their motions, without numerical choices.
         duration_s: For how long [s].
         sample_s: Between instants of the track [s].
         read: Figures and track of the recordings.
         axes: One value varied at a time.
-        front: Settings whose error against the converged reference is set against their cost.
+        ranked: Figure whose error is set against cost.
+        front: Settings for which it is, against the converged reference.
         reference: The converged one, in every value.
         check: Coarser in every value: its difference from the reference bounds the error of that.
         exact: Figures known otherwise, in place of the reference's.
-        ranked: Figure whose error is set against cost; empty: the first.
     """
 
     name: str
     title: str
-    text: str
     body: str
     scenes: Sequence[Scene]
     duration_s: float
     sample_s: float
     read: Callable[[Sequence[Recording]], Outcome]
     axes: Sequence[Axis]
+    ranked: str
     front: Sequence[Settings]
     reference: Settings
     check: Settings
     exact: Mapping[str, float] = field(default_factory=dict)
-    ranked: str = ""
 
     def scene(self, index: int, settings: Settings) -> Scene:
         """A run with some settings."""

@@ -1,11 +1,12 @@
 """What single precision does far from the origin, where places are rounded more."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
-from magworm_gym import Scene, record_scenes
-from studies.error.cases import HEIGHTS_MM, MM, PASS_S, SPEED_M_S, read_crawl
-from studies.error.errors import Errors, errors
-from studies.paper.scenes import AHEAD_M
+from studies.error.case import Case
+from studies.error.cases import crawl, passes_below
+from studies.error.errors import Error, errors
+from studies.error.settings import Settings
 
 STEPS_MS = (5.0, 2.0, 0.5)
 PLACES_M = (0.0, 0.3, 1.0, 3.0, 10.0)
@@ -18,41 +19,25 @@ class Distance:
     Attributes:
         step_ms: Step [ms].
         place_m: Where the robot starts [m].
-        errors: Of single precision, against double precision with the same step at the origin.
+        error: Of single precision, against double precision with the same step at the origin.
     """
 
     step_ms: float
     place_m: float
-    errors: Errors
+    error: Error
 
 
-def passes(step_ms: float, place_m: float, precision: str) -> list[Scene]:
-    """The passes of the case `crawl`, all of them moved along x."""
-    scenes = []
-    for height_mm in HEIGHTS_MM:
-        drive = {"x_m": place_m - AHEAD_M, "y_m": float(height_mm) / MM, "speed_m_s": SPEED_M_S}
-        values = {
-            "start.x_m": place_m,
-            "solver.step_s": step_ms / MM,
-            "solver.precision": precision,
-            "drive.motion": {"kind": "constant", **drive},
-        }
-        scenes.append(Scene.preset("paper-3").with_values(values))
-    return scenes
-
-
-def distances() -> list[Distance]:
+def distances() -> Iterator[Distance]:
     """All steps and places."""
-    found = []
     for step_ms in STEPS_MS:
-        true = read_crawl(record_scenes(passes(step_ms, 0.0, "double"), PASS_S, 0.02))
+        true = crawl().run(Settings(step_ms))
         for place_m in PLACES_M:
-            records = record_scenes(passes(step_ms, place_m, "single"), PASS_S, 0.02)
-            seen = read_crawl(records)
-            if seen.tracks is not None:
-                seen.tracks[..., 0] -= place_m
-            off = errors(seen, true, {})
-            if off is None or any(record.broken is not None for record in records):
-                raise RuntimeError(f"a pass at {place_m} m broke down")
-            found.append(Distance(step_ms, place_m, off))
-    return found
+            found = crawl_at(place_m).run(Settings(step_ms, precision="single"))
+            if found.tracks is not None:
+                found.tracks[..., 0] -= place_m
+            yield from (Distance(step_ms, place_m, error) for error in errors(found, true, {}))
+
+
+def crawl_at(place_m: float) -> Case:
+    """The case `crawl` elsewhere."""
+    return replace(crawl(), scenes=passes_below(place_m))

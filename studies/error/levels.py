@@ -1,45 +1,58 @@
 """What `solver.accuracy` costs and how far it is off, for the robot in the plane and in space."""
 
+import statistics
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from magworm_gym import Scene
-from studies.error.case import Case
-from studies.error.errors import Errors, errors
+from studies.error.cases import CASES
+from studies.error.errors import Error, errors
 from studies.error.settings import MS, Settings, quarter
-from studies.paper.scenes import values_of
+from studies.kit.passes import values_of
 from studies.throughput import measured
 
-LEVELS = ("fast", "balanced", "reference")
+LEVELS = {"fast": 50, "balanced": 50, "reference": 10}
+"""Words, and control steps of each timed run; the reference is slow."""
 TASKS = {"crawl": ("MagWorm/Crawl-v0", "paper-3"), "turn": ("MagWorm/Turn-v0", "turn-3")}
-
-CONTROL_STEPS = {"fast": 50, "balanced": 50, "reference": 10}
-"""Of each run: as many as `studies.throughput` takes, but that the reference is slow."""
+"""Environment and preset by case."""
 
 
 @dataclass(frozen=True)
 class Level:
-    """One word.
+    """One word in a case.
 
     Attributes:
-        name: The word.
+        case: The case's name.
+        word: The word.
         settings: What it stands for.
         errors: Against the case's reference.
         steps_per_second: Environment steps per second with random actions on all cores, by run.
     """
 
-    name: str
+    case: str
+    word: str
     settings: Settings
-    errors: Errors
+    errors: tuple[Error, ...]
     steps_per_second: tuple[float, ...]
 
+    @property
+    def median_per_second(self) -> float:
+        """The middle of the runs."""
+        return statistics.median(self.steps_per_second)
 
-def settings_of(name: str, scene: str) -> Settings:
-    """What a word stands for in a preset."""
-    chosen = Scene.preset(scene).with_values({"solver.accuracy": name})
-    return read_settings(chosen)
+
+def levels(repetitions: int) -> Iterator[Level]:
+    """Measures the words for both cases; the last one is the case's reference, or close to it."""
+    for name, (task, preset) in TASKS.items():
+        reference = CASES[name].run(CASES[name].reference)
+        for word, control_steps in LEVELS.items():
+            scene = Scene.preset(preset).with_values({"solver.accuracy": word})
+            found = CASES[name].run(settings_of(scene))
+            rates = measured(task, scene, repetitions, control_steps=control_steps).per_second
+            yield Level(name, word, settings_of(scene), tuple(errors(found, reference, {})), tuple(rates))
 
 
-def read_settings(scene: Scene) -> Settings:
+def settings_of(scene: Scene) -> Settings:
     """Numerical choices of a worm's scene."""
     values = values_of(scene)
     solver, body = values["solver"], values["body"]
@@ -53,19 +66,3 @@ def read_settings(scene: Scene) -> Settings:
         precision=solver["precision"],
         foot_end=None if foot_end == quarter(body["elements_per_bridge"]) else foot_end,
     )
-
-
-def levels(case: Case, repetitions: int) -> list[Level]:
-    """Measures the words for a case; the last one is its reference, or close to it."""
-    task, scene = TASKS[case.name]
-    reference = case.run(case.reference)
-    found = []
-    for name in LEVELS:
-        settings = settings_of(name, scene)
-        off = errors(case.run(settings), reference, {})
-        if off is None:
-            raise RuntimeError(f"{case.name} broke down with accuracy {name}")
-        changed = Scene.preset(scene).with_values({"solver.accuracy": name})
-        rates = measured(task, changed, repetitions, control_steps=CONTROL_STEPS[name])
-        found.append(Level(name, settings, off, tuple(rates.per_second)))
-    return found

@@ -11,6 +11,7 @@ import numpy as np
 from magworm_gym import Recording, Scene
 from studies.error.case import Axis, Case, Outcome
 from studies.error.settings import Settings
+from studies.kit.passes import MM
 
 REMANENCE_T = 1.22
 ROBOT = {
@@ -32,7 +33,6 @@ LOW_M, HIGH_M, RISE_S = -0.062, -0.032, 0.5
 """Heights of the drive's centre [m] and for how long it rises [s]; then it stands."""
 DURATION_S, SAMPLE_S = 1.0, 0.02
 
-MM = 1e3
 STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 MESHES = (9, 18, 27, 54)
 ORDERS = (0, 1, 2, 3)
@@ -64,10 +64,6 @@ def magnets() -> Case:
     return Case(
         name="magnets",
         title="An undamped cantilever with magnets",
-        text="The same rod without gravity, with two magnets 27 and 47 mm from the clamp, which do not act"
-        " on each other. A drive magnet rises beneath the outer one, which it repels, from −62 to −32 mm in"
-        " 0.5 s and stands for another 0.5 s. Height: of that magnet at the end, above the clamp; pose:"
-        " both magnets over all time.",
         body="rod",
         scenes=[scene()],
         duration_s=DURATION_S,
@@ -79,10 +75,10 @@ def magnets() -> Case:
             Axis("elements", [Settings(0.05, mesh) for mesh in (*MESHES, 108)], Settings(0.05, 216)),
             Axis("order", [Settings(1.0, 54, order) for order in ORDERS], Settings(1.0, 54, 6)),
         ),
+        ranked="pose",
         front=[Settings(step, mesh) for mesh in MESHES for step in STEPS_MS],
         reference=REFERENCE,
         check=Settings(0.04, 108, 3),
-        ranked="pose",
     )
 
 

@@ -51,6 +51,11 @@ class Settings:
         values["body.elements_per_foot_end"] = self.foot_end or quarter(self.elements)
         return values
 
+    @property
+    def age_ms(self) -> float:
+        """Mean age of the wrenches that act [ms]."""
+        return 0.5 * (self.interval - 1) * self.step_ms
+
     def text(self) -> str:
         """In words."""
         wrench = f"order {self.order}" if self.order else "dipoles"

@@ -1,7 +1,5 @@
 """What a run costs: wall time on one core, and counters that do not depend on the machine."""
 
-import statistics
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,11 +7,15 @@ import numpy as np
 from magworm_gym import Batch
 from studies.error.case import Case
 from studies.error.settings import Settings
+from studies.kit.timing import timed
+from studies.kit.words import number, thousands
 
 ENVIRONMENTS = 32
 LANES = {"double": 8, "single": 16}
 SPREAD = 0.02
 """Stiffness differs by this part at most between the environments, so that lanes do not do the same."""
+
+COSTS = ["robot-s/s of a core", "systems a step", "trials", "wrenches"]
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,11 @@ class Work:
     trials: float
     wrenches: float
 
+    def cells(self) -> list[str]:
+        """As :data:`COSTS` name them."""
+        counters = [number(self.systems), number(self.trials), thousands(self.wrenches)]
+        return [thousands(1.0 / self.wall_s), *counters]
+
 
 def work(case: Case, settings: Settings, repetitions: int) -> Work:
     """Measures a case."""
@@ -43,16 +50,15 @@ def work(case: Case, settings: Settings, repetitions: int) -> Work:
     batch = Batch(scene, count, threads=1)
     batch.set_parameter("stiffness", np.linspace(1.0 - SPREAD, 1.0 + SPREAD, count))
     everywhere, seeds = np.ones(count, np.bool_), np.arange(count, dtype=np.uint64)
-    walls = []
-    for _ in range(repetitions):
-        batch.reset(everywhere, seeds, np.zeros(count, np.uint64))
-        start = time.perf_counter()
-        batch.advance(case.duration_s)
-        walls.append(time.perf_counter() - start)
+    times = timed(
+        lambda: batch.advance(case.duration_s),
+        repetitions,
+        prepare=lambda: batch.reset(everywhere, seeds, np.zeros(count, np.uint64)),
+    )
     counters = batch.counters()
     robot_s = count * case.duration_s
     return Work(
-        wall_s=statistics.median(walls) / robot_s,
+        wall_s=times.median_s / robot_s,
         steps=1e3 / settings.step_ms,
         systems=counters["factorisations"] / counters["steps"],
         trials=counters["trials"] / counters["steps"],

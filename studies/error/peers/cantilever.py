@@ -6,7 +6,8 @@ That of the preset `cantilever` without its damping. It bends about its weak axi
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from studies.kit.passes import Floats
 
 LENGTH_M = 0.054
 WIDTH_M = 0.010
@@ -24,12 +25,14 @@ TIP_MM = (52.708, -11.759)
 AREA_M2 = WIDTH_M * THICKNESS_M
 WEAK_M4 = WIDTH_M * THICKNESS_M**3 / 12.0
 STRONG_M4 = THICKNESS_M * WIDTH_M**3 / 12.0
+SECONDS_M4 = np.array([WEAK_M4, STRONG_M4, WEAK_M4 + STRONG_M4])
+"""Second moments of the section about z, y and x."""
+RIGIDITIES_N_M2 = SECONDS_M4 * np.array([YOUNGS_MODULUS_PA, YOUNGS_MODULUS_PA, SHEAR_MODULUS_PA])
+"""Stiffness against bending about z and y, and twist."""
 SHEAR_FACTOR = 5.0 / 6.0
 """Of a rectangle."""
 SOUND_M_S = math.sqrt(YOUNGS_MODULUS_PA / DENSITY_KG_M3)
 """Speed of a wave along the rod."""
-
-MM = 1e3
 
 
 def half_cell_length_m(elements: int) -> float:
@@ -41,6 +44,6 @@ def half_cell_length_m(elements: int) -> float:
     return LENGTH_M / (elements - 0.5)
 
 
-def tip_only(x_mm: float, y_mm: float) -> NDArray[np.float64]:
+def tip_only(x_mm: float, y_mm: float) -> Floats:
     """A tip after a second as a track of one instant and one point (1, 1, 2) [mm]."""
     return np.array([[[x_mm, y_mm]]])

@@ -4,7 +4,6 @@ Clamped as the rod without magnets is, and without a damper. With wrenches at ev
 magpylib's, so they are also computed more seldom, with a line through the last two between.
 """
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -14,11 +13,11 @@ import elastica
 import numpy as np
 
 from studies.error.magnets import DURATION_S, HIGH_M, LOW_M, PLACES_M, RISE_S, SAMPLE_S
-from studies.error.peers.cantilever import AREA_M2, DENSITY_KG_M3, MM, SHEAR_MODULUS_PA, YOUNGS_MODULUS_PA
-from studies.error.peers.elastica_rod import set_diagonals
-from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, MagnetRod, Stiffening, magnet_rod, mesh
+from studies.error.peers.elastica_rod import clamped, cosserat_rod
+from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, Stiffening, magnet_rod, mesh
 from studies.error.peers.magpylib_wrench import DriveMagnet, Extrapolated
 from studies.error.peers.measure import Measured, Series, Track, finest, longest_step_s, timed
+from studies.kit.passes import MM
 
 INSTANTS = round(DURATION_S / SAMPLE_S)
 SEARCHED = 10
@@ -53,10 +52,6 @@ PLANS = (
     ),
     Plan(HARDLY_SHEARS, limits_s={18: 1.3e-4, 27: 1e-4}, finest=(54, 6e-5), every={20: (18, 27)}),
 )
-
-
-class Rods(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[misc]
-    """What the rod, its clamp and its magnets are put into."""
 
 
 class Magnets(elastica.NoForces):  # type: ignore[misc]
@@ -133,53 +128,23 @@ def drive_m(time_s: float) -> Any:
 def released(stiffening: Stiffening, every: int, elements: int, step_s: float) -> Callable[[], Track]:
     """The rod at rest, and what runs it."""
     shape = magnet_rod(elements, stiffening)
-    rod = cosserat_rod(shape)
-    rods = Rods()
-    rods.append(rod)
-    held = {"constrained_position_idx": (0, 1), "constrained_director_idx": (0,)}
-    rods.constrain(rod).using(elastica.FixedConstraint, **held)
-    rods.add_forcing_to(rod).using(Magnets, shape.middles, every)
-    rods.finalize()
-    stepper, step = elastica.PositionVerlet(), np.float64(step_s)
+    rod = cosserat_rod(shape.nodes_m, shape.shear_n, shape.bend_n_m2, shape.inertias_kg_m2)
+    rod.mass[:] = shape.masses_kg
+    advance = clamped(rod, Magnets, shape.middles, every)
     steps = round(SAMPLE_S / step_s)
 
     def places_mm() -> Track:
         return np.asarray(MM * rod.position_collection[:2, shape.middles].T)
 
     def run() -> Track:
-        time_s = np.float64(0.0)
+        time_s = 0.0
         track_mm = np.full((INSTANTS + 1, len(shape.middles), 2), np.nan)
         track_mm[0] = places_mm()
         for instant in range(INSTANTS):
-            for _ in range(steps):
-                time_s = stepper.step(rods, time_s, step)
+            time_s = advance(time_s, step_s, steps)
             track_mm[instant + 1] = places_mm()
             if not np.isfinite(track_mm[instant + 1]).all():
                 break
         return track_mm
 
     return run
-
-
-def cosserat_rod(shape: MagnetRod) -> Any:
-    """A rod of a circle's area, then given the masses and the stiffness of the shape."""
-    nodes_m = np.zeros((3, len(shape.nodes_m)))
-    nodes_m[0] = shape.nodes_m
-    rod = elastica.CosseratRod.straight_rod(
-        len(shape.nodes_m) - 1,
-        start=nodes_m[:, 0].copy(),
-        direction=np.array([1.0, 0.0, 0.0]),
-        normal=np.array([0.0, 0.0, 1.0]),  # the weak axis
-        base_length=float(np.ptp(shape.nodes_m)),
-        base_radius=math.sqrt(AREA_M2 / math.pi),
-        density=DENSITY_KG_M3,
-        youngs_modulus=YOUNGS_MODULUS_PA,
-        shear_modulus=SHEAR_MODULUS_PA,
-        position=nodes_m,
-    )
-    rod.mass[:] = shape.masses_kg
-    set_diagonals(rod.shear_matrix, shape.shear_n)
-    set_diagonals(rod.bend_matrix, shape.bend_n_m2)
-    set_diagonals(rod.mass_second_moment_of_inertia, shape.inertias_kg_m2)
-    set_diagonals(rod.inv_mass_second_moment_of_inertia, 1.0 / shape.inertias_kg_m2)
-    return rod

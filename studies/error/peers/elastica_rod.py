@@ -20,26 +20,27 @@ from studies.error.peers.cantilever import (
     DENSITY_KG_M3,
     DURATION_S,
     GRAVITY_M_S2,
-    MM,
+    RIGIDITIES_N_M2,
+    SECONDS_M4,
     SHEAR_FACTOR,
     SHEAR_MODULUS_PA,
     SOUND_M_S,
-    STRONG_M4,
     THICKNESS_M,
-    WEAK_M4,
     YOUNGS_MODULUS_PA,
     half_cell_length_m,
     tip_only,
 )
 from studies.error.peers.measure import Series, Track, finest, measured
+from studies.kit.passes import MM, Floats
 
 MESHES = (9, 18, 27, 54)
 FINEST = 80
 """With 108 the rod, which has no damper, broke up within the second at every step tried."""
+SHEAR_N = SHEAR_FACTOR * SHEAR_MODULUS_PA * AREA_M2
 
 
 class Rods(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[misc]
-    """What the rod, its clamp and its weight are put into."""
+    """What a rod, its clamp and its loads are put into."""
 
 
 def series() -> list[Series]:
@@ -58,52 +59,73 @@ def limit_s(elements: int) -> float:
 
 def released(elements: int, step_s: float) -> Callable[[], Track]:
     """The rod at rest, and what runs it."""
-    rod = rectangular_rod(elements)
-    rods = Rods()
-    rods.append(rod)
-    held = {"constrained_position_idx": (0, 1), "constrained_director_idx": (0,)}
-    rods.constrain(rod).using(elastica.FixedConstraint, **held)
-    gravity = np.array([0.0, -GRAVITY_M_S2, 0.0])
-    rods.add_forcing_to(rod).using(elastica.GravityForces, acc_gravity=gravity)
-    rods.finalize()
-    stepper, step = elastica.PositionVerlet(), np.float64(step_s)
+    length_m = half_cell_length_m(elements)
+    rod = cosserat_rod(
+        length_m * (np.arange(elements + 1, dtype=np.float64) - 0.5),
+        shear_n=np.array([SHEAR_N, SHEAR_N, YOUNGS_MODULUS_PA * AREA_M2]),
+        bend_n_m2=RIGIDITIES_N_M2,
+        inertias_kg_m2=DENSITY_KG_M3 * length_m * SECONDS_M4,
+    )
+    advance = clamped(rod, elastica.GravityForces, acc_gravity=np.array([0.0, -GRAVITY_M_S2, 0.0]))
 
     def run() -> Track:
-        time_s = np.float64(0.0)
-        for _ in range(round(DURATION_S / step_s)):
-            time_s = stepper.step(rods, time_s, step)
+        advance(0.0, step_s, round(DURATION_S / step_s))
         x, y, _ = MM * rod.position_collection[:, -1]
         return tip_only(x, y)
 
     return run
 
 
-def rectangular_rod(elements: int) -> Any:
-    """A rod of a circle's area, then given the rectangle's stiffness and inertia."""
-    length_m = half_cell_length_m(elements)
+def clamped(rod: Any, force: Any, *of_force: Any, **by_name: Any) -> Callable[[float, float, int], float]:
+    """Clamps and loads a rod; what is returned advances it from a time by steps, and gives the time [s]."""
+    rods = Rods()
+    rods.append(rod)
+    held = {"constrained_position_idx": (0, 1), "constrained_director_idx": (0,)}
+    rods.constrain(rod).using(elastica.FixedConstraint, **held)
+    rods.add_forcing_to(rod).using(force, *of_force, **by_name)
+    rods.finalize()
+    stepper = elastica.PositionVerlet()
+
+    def advance(time_s: float, step_s: float, steps: int) -> float:
+        now, step = np.float64(time_s), np.float64(step_s)
+        for _ in range(steps):
+            now = stepper.step(rods, now, step)
+        return float(now)
+
+    return advance
+
+
+def cosserat_rod(nodes_m: Floats, shear_n: Floats, bend_n_m2: Floats, inertias_kg_m2: Floats) -> Any:
+    """A straight rod of a circle's area, then given the rectangle's stiffness and inertia.
+
+    Args:
+        nodes_m: Places of the nodes along x (N + 1,) [m].
+        shear_n: Stiffness against shear, twice, and stretching (3,) or (3, N) [N].
+        bend_n_m2: Stiffness against bending, twice, and twist (3,) or (3, N − 1) [N·m²].
+        inertias_kg_m2: Moments of inertia of the elements about z, −y and x (3,) or (3, N) [kg·m²].
+    """
+    places_m = np.zeros((3, len(nodes_m)))
+    places_m[0] = nodes_m
     rod = elastica.CosseratRod.straight_rod(
-        elements,
-        start=np.array([-0.5 * length_m, 0.0, 0.0]),
+        len(nodes_m) - 1,
+        start=places_m[:, 0].copy(),
         direction=np.array([1.0, 0.0, 0.0]),
         normal=np.array([0.0, 0.0, 1.0]),  # the weak axis
-        base_length=elements * length_m,
+        base_length=float(np.ptp(nodes_m)),
         base_radius=math.sqrt(AREA_M2 / math.pi),
         density=DENSITY_KG_M3,
         youngs_modulus=YOUNGS_MODULUS_PA,
         shear_modulus=SHEAR_MODULUS_PA,
+        position=places_m,
     )
-    shear_n = SHEAR_FACTOR * SHEAR_MODULUS_PA * AREA_M2
-    polar_m4 = WEAK_M4 + STRONG_M4
-    set_diagonals(rod.shear_matrix, (shear_n, shear_n, YOUNGS_MODULUS_PA * AREA_M2))
-    bending = (YOUNGS_MODULUS_PA * WEAK_M4, YOUNGS_MODULUS_PA * STRONG_M4, SHEAR_MODULUS_PA * polar_m4)
-    set_diagonals(rod.bend_matrix, bending)
-    inertia = [DENSITY_KG_M3 * length_m * second_m4 for second_m4 in (WEAK_M4, STRONG_M4, polar_m4)]
-    set_diagonals(rod.mass_second_moment_of_inertia, inertia)
-    set_diagonals(rod.inv_mass_second_moment_of_inertia, [1.0 / value for value in inertia])
+    set_diagonals(rod.shear_matrix, shear_n)
+    set_diagonals(rod.bend_matrix, bend_n_m2)
+    set_diagonals(rod.mass_second_moment_of_inertia, inertias_kg_m2)
+    set_diagonals(rod.inv_mass_second_moment_of_inertia, 1.0 / inertias_kg_m2)
     return rod
 
 
-def set_diagonals(matrices: Any, values: Any) -> None:
+def set_diagonals(matrices: Any, values: Floats) -> None:
     """Writes the diagonals of matrices (3, 3, N)."""
     for axis, value in enumerate(values):
         matrices[axis, axis] = value

@@ -8,24 +8,24 @@ stiffer than rubber; where a magnet meets rubber, the rubber's half of the bend 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from studies.error.magnets import PLACES_M, ROBOT
 from studies.error.peers.cantilever import (
     AREA_M2,
     DENSITY_KG_M3,
     LENGTH_M,
+    RIGIDITIES_N_M2,
+    SECONDS_M4,
     SHEAR_FACTOR,
     SHEAR_MODULUS_PA,
-    STRONG_M4,
     THICKNESS_M,
-    WEAK_M4,
     WIDTH_M,
     YOUNGS_MODULUS_PA,
     half_cell_length_m,
 )
+from studies.kit.passes import Floats
 
-Floats = NDArray[np.float64]
+Indices = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
 END_SHARE = 1.0 / 48.0
 """Part of a magnet's mass at either of its ends. The rest is at its middle, and what the moment of inertia
@@ -71,7 +71,7 @@ class MagnetRod:
     """
 
     nodes_m: Floats
-    middles: NDArray[np.int64]
+    middles: Indices
     masses_kg: Floats
     inertias_kg_m2: Floats
     shear_n: Floats
@@ -89,7 +89,7 @@ def magnet_rod(elements: int, stiffening: Stiffening) -> MagnetRod:
     )
 
 
-def mesh(elements: int) -> tuple[Floats, NDArray[np.int64]]:
+def mesh(elements: int) -> tuple[Floats, Indices]:
     """Lengths of the elements [m], and which magnet each belongs to. Magnets end where elements do."""
     size_m, magnet_m = half_cell_length_m(elements), ROBOT["magnet"]["length_m"]
     lengths_m: list[float] = []
@@ -131,14 +131,11 @@ def magnet_inertia() -> tuple[float, Floats]:
     return magnet_kg + around_kg, (magnet_kg * squares(box_m) + around_kg * squares(cell_m)) / 12.0
 
 
-def inertia(
-    lengths_m: Floats, magnets: NDArray[np.int64], middles: NDArray[np.int64]
-) -> tuple[Floats, Floats]:
+def inertia(lengths_m: Floats, magnets: Indices, middles: Indices) -> tuple[Floats, Floats]:
     """Masses of the nodes [kg] and moments of inertia of the elements about z, y and x [kg·m²]."""
     rubber_kg = np.where(magnets == SOFT, DENSITY_KG_M3 * AREA_M2 * lengths_m, 0.0)
     masses_kg = 0.5 * (np.append(rubber_kg, 0.0) + np.append(0.0, rubber_kg))
-    section_m4 = np.array([WEAK_M4, STRONG_M4, WEAK_M4 + STRONG_M4])
-    inertias_kg_m2 = DENSITY_KG_M3 * section_m4[:, None] * lengths_m
+    inertias_kg_m2 = DENSITY_KG_M3 * SECONDS_M4[:, None] * lengths_m
     magnet_kg, magnet_kg_m2 = magnet_inertia()
     arm_m = 0.5 * ROBOT["magnet"]["length_m"]
     in_ends_kg_m2 = 2.0 * END_SHARE * magnet_kg * arm_m**2 * np.array([1.0, 1.0, 0.0])
@@ -150,7 +147,7 @@ def inertia(
 
 
 def stiffness(
-    lengths_m: Floats, magnets: NDArray[np.int64], middles: NDArray[np.int64], stiffening: Stiffening
+    lengths_m: Floats, magnets: Indices, middles: Indices, stiffening: Stiffening
 ) -> tuple[Floats, Floats]:
     """Against shear and stretching [N], and against bending and twist [N·m²]."""
     soft = magnets == SOFT
@@ -163,7 +160,4 @@ def stiffness(
     bends_m = gives_m[1:] + gives_m[:-1]
     bends_m[middles - 1] = 0.5 * ROBOT["magnet"]["length_m"] / stiffening.magnet_bending
     factor = (halves_m[1:] + halves_m[:-1]) / bends_m
-    rubber_n_m2 = np.array(
-        [YOUNGS_MODULUS_PA * WEAK_M4, YOUNGS_MODULUS_PA * STRONG_M4, SHEAR_MODULUS_PA * (WEAK_M4 + STRONG_M4)]
-    )
-    return np.stack([sheared_n, sheared_n, stretched_n]), rubber_n_m2[:, None] * factor
+    return np.stack([sheared_n, sheared_n, stretched_n]), RIGIDITIES_N_M2[:, None] * factor

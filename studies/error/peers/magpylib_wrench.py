@@ -9,12 +9,10 @@ from typing import Any
 
 import magpylib
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from studies.error.magnets import POLARITIES, ROBOT
-
-Floats = NDArray[np.float64]
+from studies.kit.passes import Floats
 
 CELLS = (4, 1, 4)
 """Along a body magnet's length, height and width."""

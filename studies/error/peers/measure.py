@@ -1,18 +1,17 @@
 """A peer's runs: the largest stable step for each mesh, shorter ones, and their wall times."""
 
 import math
-import statistics
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from studies.error.peers.cantilever import DURATION_S, LENGTH_M, MM
+from studies.error.peers.cantilever import DURATION_S, LENGTH_M
+from studies.kit.passes import MM, Floats
+from studies.kit.timing import timed as timed_runs
 
-Track = NDArray[np.float64]
+Track = Floats
 """Places of what is followed, along and up, shape (instants, points, 2) [mm]."""
 Release = Callable[[int, float], Callable[[], Track]]
 """Of a number of elements and a step [s]: builds the rod, and returns what runs it for a second."""
@@ -124,10 +123,7 @@ def fewest_steps(track_mm: Callable[[int], Track], first: int, instants: int = 1
 
 def timed(release: Release, elements: int, step_s: float) -> tuple[Track, float]:
     """What a run gives, and the median wall time of its steps [s]. The search for the step has warmed up."""
-    walls = []
-    for _ in range(REPETITIONS):
-        run = release(elements, step_s)
-        start = time.perf_counter()
-        track_mm = run()
-        walls.append(time.perf_counter() - start)
-    return track_mm, statistics.median(walls)
+    runs = [release(elements, step_s) for _ in range(REPETITIONS)]
+    tracks_mm: list[Track] = []
+    times = timed_runs(lambda: tracks_mm.append(runs[len(tracks_mm)]()), REPETITIONS)
+    return tracks_mm[-1], times.median_s

@@ -17,7 +17,6 @@ from studies.error.peers.cantilever import (
     DENSITY_KG_M3,
     DURATION_S,
     GRAVITY_M_S2,
-    MM,
     SHEAR_MODULUS_PA,
     SOUND_M_S,
     THICKNESS_M,
@@ -27,6 +26,7 @@ from studies.error.peers.cantilever import (
     tip_only,
 )
 from studies.error.peers.measure import Series, Track, finest, measured
+from studies.kit.passes import MM
 
 MESHES = (9, 18, 27)
 FINEST = 54
