@@ -2,6 +2,7 @@
 
 import textwrap
 from collections.abc import Iterable, Sequence
+from inspect import getmembers, isfunction
 from pathlib import Path
 from typing import Any
 
@@ -33,8 +34,7 @@ def page(template: Path, **values: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    for function in FILTERS:
-        environment.filters[function.__name__] = function
+    environment.filters.update(getmembers(words, isfunction), wrapped=wrapped)
     environment.globals.update(table=table, image=image)
     return environment.get_template(template.name).render(values)
 
@@ -53,10 +53,3 @@ def image(file: str, caption: str) -> str:
 def wrapped(text: str) -> str:
     """A paragraph in lines of at most 128 characters."""
     return textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False)
-
-
-FILTERS = (
-    *(words.number, words.signed, words.with_spread, words.short, words.plain, words.listed, words.ranking),
-    *(words.thousands, words.signed_thousands, words.percent, words.signed_percent),
-    *(words.capital, words.in_words, words.trend, wrapped),
-)

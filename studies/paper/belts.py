@@ -10,7 +10,7 @@ from magworm_gym import Recording, record_scenes
 from magworm_gym.baselines import PAPER_PITCHES_M
 from studies.kit.figures import BY_MAGNETS, REFERENCE, legend_above, panels
 from studies.kit.passes import AHEAD_M, MM, Floats, on_belt, robot, unbroken
-from studies.kit.words import COUNTS, number, with_spread
+from studies.kit.words import COUNTS
 from studies.paper.experiment import Experiment, Numbers
 from studies.paper.marks import PLATFORM_MM_S, WAYS, draw_spread, over_speed
 
@@ -58,19 +58,14 @@ class Belt:
         return float(self.speed_mm_s.max())
 
     @property
-    def cells(self) -> list[str]:
-        """Its row of the table."""
-        at = SPEEDS_MM_S[self.best]
-        dragged = SPEEDS_MM_S[self.speed_mm_s < DRAGGED_MM_S]
-        return [
-            COUNTS[self.magnets],
-            f"{self.pitch_mm:g} mm",
-            f"{with_spread(self.best_mm_s, self.spread_mm_s[self.best], 1)} mm/s",
-            f"{number(self.best_mm_s / self.length_mm)} L/s",
-            f"{at:g} mm/s",
-            f"{number(self.best_mm_s * self.pitch_mm / at, 1)} mm",
-            ", ".join(f"{speed:g}" for speed in dragged) or "none",
-        ]
+    def best_at(self) -> float:
+        """Speed of the belt there [mm/s]."""
+        return float(SPEEDS_MM_S[self.best])
+
+    @property
+    def dragged_at(self) -> list[float]:
+        """Speeds of the belt at which it drags the robot [mm/s]."""
+        return list(SPEEDS_MM_S[self.speed_mm_s < DRAGGED_MM_S])
 
 
 @dataclass(frozen=True)

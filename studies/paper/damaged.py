@@ -9,7 +9,7 @@ import numpy as np
 
 from studies.kit.figures import BLUE, ORANGE, REFERENCE, legend_above, panels
 from studies.kit.passes import AHEAD_M, robot
-from studies.kit.words import COUNTS, listed, with_spread
+from studies.kit.words import COUNTS, listed
 from studies.paper.experiment import Experiment, Numbers
 from studies.paper.passes import CRAWLS_MM, Strides, Walk, measured_strides
 
@@ -53,13 +53,10 @@ class Damaged(Experiment):
         return [(flat[row, at], wheres[at]) for row, at in enumerate(marks.argmax(axis=1))]
 
     @property
-    def rows(self) -> Iterator[list[str]]:
-        """Of the table, a robot each."""
-        shown = self.strides[:, :, SHOWN]
+    def rows(self) -> Iterator[tuple[str, list[Strides], Strides, str]]:
+        """Of the table: name, strides at 100 mm/s in both directions, the best and where it was made."""
         for row, (name, (best, where)) in enumerate(zip(NAMES, self.best, strict=True)):
-            ways = [_words(shown[row, direction]) for direction in range(len(DIRECTIONS))]
-            at = "" if best.carried == 1.0 else f" ({where})"
-            yield [name, *ways, f"{_words(best)}{at}", "yes" if best.crawls else "**no**"]
+            yield name, [self.strides[row, way, SHOWN] for way in range(len(DIRECTIONS))], best, where
 
     @property
     def groups(self) -> Iterator[str]:
@@ -114,11 +111,3 @@ class Damaged(Experiment):
         axis.set_ylabel("stride at 100 mm/s [mm]")
         legend_above(figure, axis, 4)
         return {"damaged": figure}
-
-
-def _words(stride: Strides) -> str:
-    if stride.carried == 1.0:
-        return "carried along"
-    text = f"{with_spread(float(stride.mean_mm), float(stride.spread_mm), 1)} mm"
-    part = f"{100.0 * float(stride.carried):.0f} % of the runs"
-    return f"{text}, carried along in {part}" if stride.carried else text

@@ -7,7 +7,7 @@ import numpy as np
 
 from magworm_gym import Recording, record_scenes
 from studies.kit.passes import AHEAD_M, MM, Floats, one_pass, robot
-from studies.kit.words import COUNTS, number
+from studies.kit.words import COUNTS
 from studies.paper.experiment import Experiment, Numbers
 
 SPEEDS_MM_S = (50.0, 100.0, 210.0)
@@ -38,17 +38,6 @@ class Both:
     parting_s: float
     before_um: float
     after_um: float
-
-    @property
-    def texts(self) -> list[str]:
-        """The three distances; of one below a nanometre the digits are round-off."""
-        return [distance_text(each) for each in (self.apart_um, self.before_um, self.after_um)]
-
-    @property
-    def cells(self) -> list[str]:
-        """Its row of the table."""
-        stride = f"{number(self.stride_mm)} mm"
-        return [COUNTS[self.magnets], f"{self.speed_mm_s:g} mm/s", stride, self.texts[0]]
 
 
 @dataclass(frozen=True)
@@ -90,11 +79,6 @@ def apart_m(there: Recording, mirrored: Recording, length_m: float) -> Floats:
     """
     image = mirrored.nodes[:, ::-1] * (-1.0, 1.0) + (length_m, 0.0)
     return np.asarray(np.linalg.norm(image - there.nodes, axis=-1).max(axis=1))
-
-
-def distance_text(error_um: float) -> str:
-    """A distance of the page."""
-    return "below 1 nm" if error_um < 1e-3 else f"{number(error_um, 2 if error_um < 1.0 else 0)} µm"
 
 
 def _both_ways(magnets: int, speed_mm_s: float) -> Both:

@@ -11,7 +11,7 @@ from studies.kit.passes import MM, PASS_S, Floats, one_pass, robot
 from studies.paper.experiment import Experiment, Numbers
 from studies.paper.feet import OFF_GROUND_M, sole_heights
 from studies.paper.loads import magnetic_loads
-from studies.paper.quantity import quantities_of, read_rows
+from studies.paper.quantity import Quantity, quantities_of, read_rows
 from studies.paper.robot_picture import draw_scene, moments
 from studies.paper.stages import NAMES, spans
 
@@ -87,19 +87,14 @@ class Morphology(Experiment):
         return list(NAMES)
 
     @property
-    def rows(self) -> list[list[str]]:
-        """The table of the paper's statements."""
-        checks = quantities_of(self._statements, read_rows())
-        return [[q.row.what, q.row.claim, q.model_text, "yes" if q.as_wanted else "**no**"] for q in checks]
-
-    @property
-    def _statements(self) -> dict[str, float]:
-        return {f"stages.{name}": value for name, value in self.found.items()}
+    def statements(self) -> list[Quantity]:
+        """The paper's statements, beside the model."""
+        return quantities_of({f"stages.{name}": value for name, value in self.found.items()}, read_rows())
 
     def numbers(self) -> Numbers:
         """How many statements hold, and each."""
-        kept = sum(each.as_wanted for each in quantities_of(self._statements, read_rows()))
-        return {"stages.statements": kept, **self._statements}
+        each = {statement.key: statement.model for statement in self.statements}
+        return {"stages.statements": sum(of.as_wanted for of in self.statements), **each}
 
     def figures(self) -> dict[str, Any]:
         """Two instants of each stage."""

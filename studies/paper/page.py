@@ -22,22 +22,12 @@ def paper_page(experiments: Sequence[Experiment]) -> str:
     return page(
         HERE / "page.md",
         quantities=found,
-        rows=overview(found),
         targets=_of(found, Origin.TARGET),
         exact=_of(found, Origin.CLOSED_FORM),
         fitted=_of(found, Origin.FITTED),
         held=_of(found, Origin.HELD_BACK),
         sections=[page(HERE / "sections" / f"{each.name}.md", of=each) for each in experiments],
     )
-
-
-def overview(found: Sequence[Quantity]) -> list[list[str]]:
-    """Rows of the table at the top."""
-    return [
-        [q.row.what, q.paper_text, q.model_text, q.error_text, q.row.origin.value, q.verdict]
-        for q in found
-        if q.row.listed
-    ]
 
 
 def _of(found: Sequence[Quantity], origin: Origin) -> list[Quantity]:
