@@ -9,7 +9,7 @@ from magworm_gym.identification.claims import KINDS, Claim, Curve
 
 def claim(kind, *curves, other=None, amount=0.0, within=0.0, low=0.2, high=0.4):
     rows = tuple((each,) for each in curves)
-    return Claim("it", kind, rows, (other,) if other else (), low, high, amount, within, scale=1e-4)
+    return Claim("it", kind, rows, (other,) if other else (), low, high, amount, within, tolerance=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,7 @@ import argparse
 from collections.abc import Sequence
 from typing import Any
 
-from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.table import parse_toml
+from magworm_gym.documents import parse_toml
 
 DRIVE_HEIGHT_M = -0.022
 
@@ -53,6 +52,6 @@ def set_values(pairs: Sequence[Sequence[str]]) -> dict[str, Any]:
     for path, text in pairs:
         try:
             values[path] = parse_toml(f"value = {text}", f"--set {path}")["value"]
-        except ProblemError:
+        except ValueError:
             values[path] = text
     return values

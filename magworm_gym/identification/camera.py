@@ -1,20 +1,20 @@
 """From pixels of a film to metres of the scene."""
 
-from dataclasses import dataclass
+from typing import Annotated, Literal
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
+
+from magworm_gym.documents import Number, Table
 
 Floats = NDArray[np.float64]
 
-WHOLE = "whole"
-START = "start"
 START_SPAN_S = 0.1
 """Time at the beginning of a recording whose frames ``origin = "start"`` looks at [s]."""
 
 
-@dataclass(frozen=True)
-class Camera:
+class Camera(Table, frozen=True):
     """A camera that looks at the robot's side, its image plane parallel to the robot.
 
     Attributes:
@@ -28,13 +28,15 @@ class Camera:
             makes model and tracks agree best over all frames; ``"start"``: over the first 0.1 s.
     """
 
-    metres_per_pixel: float
-    frames_per_second: float
-    head: str = "left"
-    y_axis: str = "down"
-    angle_deg: float = 0.0
-    start_s: float = 0.0
-    origin: str | tuple[float, float] = WHOLE
+    metres_per_pixel: Annotated[float, Meta(ge=1e-9, le=1.0)]
+    frames_per_second: Annotated[float, Meta(ge=1e-3, le=1e6)]
+    head: Literal["left", "right"] = "left"
+    y_axis: Literal["down", "up"] = "down"
+    angle_deg: Annotated[float, Meta(ge=-180.0, le=180.0)] = 0.0
+    start_s: Number = 0.0
+    origin: Annotated[
+        Literal["whole", "start"] | tuple[float, float], Meta(description='"whole", "start" or [x_px, y_px]')
+    ] = "whole"
 
     def time_s(self, frames: NDArray[np.int64]) -> Floats:
         """Times of frames (F,) since the experiment began [s]."""
@@ -76,6 +78,6 @@ class Camera:
         """
         if not isinstance(self.origin, str):
             return np.zeros(2)
-        if self.origin == START:
+        if self.origin == "start":
             deviation_m = deviation_m[time_s <= time_s.min() + START_SPAN_S]
         return np.asarray(np.median(deviation_m, axis=0))

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.identification.quantities import Quantity
-from magworm_gym.identification.residual import guiding
 from magworm_gym.identification.sweep import Sweep
-from magworm_gym.identification.targets import Outcome, Recordings
+from magworm_gym.identification.targets import Aim, Recordings
 
 Floats = NDArray[np.float64]
 
@@ -73,11 +73,11 @@ def curve_of(sweep: Sweep, quantity: Quantity) -> Curve:
 
 
 @dataclass(frozen=True)
-class Claim:
+class Claim(Aim):
     """Something that is said of curves.
 
     Attributes:
-        name: What it is called.
+        title: What it is called.
         kind: A key of :data:`KINDS`.
         curves: What it is about, cut to its speeds: K curves, each the mean of some.
         other: The curve that it is compared with where the kind asks for one, the mean of some.
@@ -85,12 +85,12 @@ class Claim:
         high_m_s: Greatest speed of its range [m/s].
         amount: The number that goes with the kind, in the unit of the quantity, or as a ratio [1].
         within: Deviation up to which a value counts as met; 0 for kinds with a bound.
-        scale: Deviation that counts as one in the loss, in the unit of the quantity.
+        tolerance: See :class:`Aim`; ``scale`` in a problem file.
         group: Name of the group that it can be left out with.
-        fitted: Whether it is part of the loss.
+        fitted: See :class:`Aim`.
     """
 
-    name: str
+    title: str
     kind: str
     curves: tuple[tuple[Curve, ...], ...]
     other: tuple[Curve, ...]
@@ -98,10 +98,14 @@ class Claim:
     high_m_s: float
     amount: float
     within: float
-    scale: float
+    tolerance: float
     group: str = ""
     fitted: bool = True
-    weight: float = 1.0
+
+    @property
+    def name(self) -> str:
+        """Its title."""
+        return self.title
 
     @property
     def sources(self) -> frozenset[str]:
@@ -109,46 +113,40 @@ class Claim:
         return frozenset(curve.sweep for row in (*self.curves, self.other) for curve in row)
 
     @property
-    def allowance(self) -> float:
-        """Greatest share of the loss with which it can be met [1]: nothing of a bound."""
-        return float(np.square(guiding(self.within / self.scale)))
+    def asked(self) -> float | None:
+        """The value, where the kind asks for one."""
+        return self.amount if self.within > 0.0 else None
+
+    @property
+    def band(self) -> float:
+        """How far a value may be off; nothing of a bound."""
+        return self.within / self.tolerance
 
     def means(self, recordings: Recordings) -> Floats:
         """Its curves, averaged over conditions (K, S), in the unit of the quantity."""
-        return np.array([_mean(row, recordings) for row in self.curves])
+        return np.array([_over_conditions(row, recordings, np.mean, np.mean) for row in self.curves])
 
-    def compared(self, recordings: Recordings) -> Floats:
-        """The other curve (S,), in the unit of the quantity."""
-        return _mean(self.other, recordings)
-
-    def spreads(self, recordings: Recordings) -> Floats:
-        """Standard deviations over conditions (K, S), the greatest of the curves that a mean is of."""
-        return np.array(
-            [np.max([curve.values(recordings).std(axis=1) for curve in row], axis=0) for row in self.curves]
+    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
+        """The value that decides, and deviations (D,): 0 where a bound is kept."""
+        kind = KINDS[self.kind]
+        speeds_m_s = np.array(self.curves[0][0].speeds_m_s)
+        told = Told(
+            means=self.means(recordings),
+            other=_over_conditions(self.other, recordings, np.mean, np.mean) if self.other else np.empty(0),
+            speeds_m_s=speeds_m_s,
+            inside=(self.low_m_s <= speeds_m_s) & (speeds_m_s <= self.high_m_s),
+            amount=self.amount,
         )
+        if kind.spread:
+            spreads = [_over_conditions(row, recordings, np.std, np.max) for row in self.curves]
+            told = replace(told, means=np.array(spreads))
+        margins = np.ravel(kind.margins(told))
+        deviations = margins if kind.exact else np.minimum(margins, 0.0)
+        return float(kind.model(told)), deviations / self.tolerance
 
-    def residuals(self, recordings: Recordings) -> Floats:
-        """Residuals (R,) [1]: together they count once, however many speeds a claim is about."""
-        _, deviations = KINDS[self.kind].judge(self, recordings)
-        return np.asarray(guiding(deviations / self.scale) / np.sqrt(deviations.size))
-
-    def outcome(self, recordings: Recordings) -> Outcome:
-        """How well it is met; the model's value is the one that decides."""
-        model, deviations = KINDS[self.kind].judge(self, recordings)
-        worst = float(deviations[np.abs(deviations).argmax()])
-        value = self.within > 0.0
-        return Outcome(
-            name=self.name,
-            target=self._words(),
-            model=model,
-            error_percent=100.0 * worst / abs(self.amount) if value and self.amount else None,
-            error_tolerances=worst / self.scale,
-            loss=float(np.square(self.residuals(recordings)).sum()),
-            met=abs(worst) <= self.within,
-            fitted=self.fitted,
-        )
-
-    def _words(self) -> str:
+    @property
+    def wanted(self) -> str:
+        """Its curves and what is said of them."""
         span = f"{self.low_m_s:g}"
         if self.high_m_s > self.low_m_s:
             span += f" to {self.high_m_s:g}"
@@ -159,13 +157,40 @@ class Claim:
         return f"{curves} {said} {span} m/s"
 
 
-def _mean(curves: tuple[Curve, ...], recordings: Recordings) -> Floats:
-    """Mean of curves over conditions (S,)."""
-    return np.asarray(np.mean([curve.values(recordings).mean(axis=1) for curve in curves], axis=0))
+def _over_conditions(
+    curves: tuple[Curve, ...], recordings: Recordings, over: Callable[..., Floats], of: Callable[..., Floats]
+) -> Floats:
+    """A statistic over conditions of each curve, and one of those of all curves (S,)."""
+    return np.asarray(of([over(curve.values(recordings), axis=1) for curve in curves], axis=0))
 
 
-Judge = Callable[[Claim, Recordings], tuple[float, Floats]]
-"""Gives the model's value that decides, and deviations (D,) from the claim: 0 where a bound is kept."""
+@dataclass(frozen=True)
+class Told:
+    """What a claim is judged by.
+
+    Attributes:
+        means: Curves, averaged over conditions (K, S), or their spreads, in the unit of the quantity.
+        other: The curve that they are compared with (S,).
+        speeds_m_s: Speeds (S,) [m/s].
+        inside: Which of them lie in the range (S,).
+        amount: The number that goes with the kind.
+    """
+
+    means: Floats
+    other: Floats
+    speeds_m_s: Floats
+    inside: NDArray[np.bool_]
+    amount: float
+
+    @property
+    def change(self) -> Floats:
+        """Last minus first value of each curve (K,)."""
+        return np.asarray(self.means[:, -1] - self.means[:, 0])
+
+    @property
+    def apart(self) -> float:
+        """Mean distance of the first curve from the other."""
+        return float(np.abs(self.means[0] - self.other).mean())
 
 
 @dataclass(frozen=True)
@@ -173,110 +198,110 @@ class Kind:
     """A kind of claim.
 
     Attributes:
-        judge: What judges it.
-        amount: Key of the number that goes with it; empty where there is none.
+        amount: Key of the number that goes with it.
         words: What it says, as a format of ``amount``, ``within`` and ``other``.
+        model: The model's value that decides.
+        margins: Margins that must not be negative, of any shape; deviations where a value is asked for.
         many: Whether it can be about several curves.
         compares: Whether it is about another curve as well.
         exact: Whether it asks for a value.
+        spread: Whether it is about the spread over conditions, in place of the mean.
     """
 
-    judge: Judge
     amount: str
     words: str
+    model: Callable[[Told], Any]
+    margins: Callable[[Told], Any]
     many: bool = False
     compares: bool = False
     exact: bool = False
-
-
-def _lacking(margins: Floats) -> Floats:
-    """Deviations from margins that must not be negative (D,)."""
-    return np.minimum(margins, 0.0).ravel()
-
-
-def _value(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)[0]
-    return float(means.mean()), means - claim.amount
-
-
-def _longest(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    longest = float(claim.means(recordings).max())
-    return longest, np.array([longest - claim.amount])
-
-
-def _at_least(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)
-    return float(means.min()), _lacking(means - claim.amount)
-
-
-def _at_most(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)
-    return float(means.max()), _lacking(claim.amount - means)
-
-
-def _some_at_least(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    longest = float(claim.means(recordings).max())
-    return longest, _lacking(np.array([longest - claim.amount]))
-
-
-def _rises(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)
-    change = means[:, -1] - means[:, 0]
-    return float(change.min()), _lacking(change - claim.amount)
-
-
-def _falls(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)
-    change = means[:, -1] - means[:, 0]
-    return float(change.max()), _lacking(-change - claim.amount)
-
-
-def _greater(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    lead = claim.means(recordings) - claim.compared(recordings)
-    return float(lead.min()), _lacking(lead - claim.amount)
-
-
-def _differs(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    apart = float(np.abs(claim.means(recordings)[0] - claim.compared(recordings)).mean())
-    return apart, _lacking(np.array([apart - claim.amount]))
-
-
-def _nearly_equal(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    means = claim.means(recordings)
-    longest, shortest = means.max(axis=0), means.min(axis=0)
-    apart = float((longest / np.maximum(shortest, LEAST_M)).max() - 1.0)
-    return apart, _lacking((1.0 + claim.amount) * shortest - longest)
-
-
-def _peaks(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    speeds = np.array(claim.curves[0][0].speeds_m_s)
-    means = claim.means(recordings)[0]
-    inside = (claim.low_m_s <= speeds) & (speeds <= claim.high_m_s)
-    lead = means[inside].max() - means[~inside].max()
-    return float(speeds[means.argmax()]), _lacking(np.array([lead - claim.amount]))
-
-
-def _steady(claim: Claim, recordings: Recordings) -> tuple[float, Floats]:
-    spreads = claim.spreads(recordings)
-    return float(spreads.max()), _lacking(claim.amount - spreads)
+    spread: bool = False
 
 
 KINDS = {
-    "value": Kind(_value, "value", "is {amount:g} ± {within:g} at each speed of", exact=True),
-    "longest": Kind(_longest, "value", "has its greatest value at {amount:g} ± {within:g} over", exact=True),
-    "at_least": Kind(_at_least, "value", "is at least {amount:g} at each speed of", many=True),
-    "at_most": Kind(_at_most, "value", "is at most {amount:g} at each speed of", many=True),
-    "some_at_least": Kind(_some_at_least, "value", "is at least {amount:g} at some speed of", many=True),
-    "rises": Kind(_rises, "by", "rises by at least {amount:g} over", many=True),
-    "falls": Kind(_falls, "by", "falls by at least {amount:g} over", many=True),
-    "greater": Kind(_greater, "by", "exceeds {other} by at least {amount:g} at each speed of", compares=True),
+    "value": Kind(
+        "value",
+        "is {amount:g} ± {within:g} at each speed of",
+        lambda t: t.means[0].mean(),
+        lambda t: t.means[0] - t.amount,
+        exact=True,
+    ),
+    "longest": Kind(
+        "value",
+        "has its greatest value at {amount:g} ± {within:g} over",
+        lambda t: t.means.max(),
+        lambda t: t.means.max() - t.amount,
+        exact=True,
+    ),
+    "at_least": Kind(
+        "value",
+        "is at least {amount:g} at each speed of",
+        lambda t: t.means.min(),
+        lambda t: t.means - t.amount,
+        many=True,
+    ),
+    "at_most": Kind(
+        "value",
+        "is at most {amount:g} at each speed of",
+        lambda t: t.means.max(),
+        lambda t: t.amount - t.means,
+        many=True,
+    ),
+    "some_at_least": Kind(
+        "value",
+        "is at least {amount:g} at some speed of",
+        lambda t: t.means.max(),
+        lambda t: t.means.max() - t.amount,
+        many=True,
+    ),
+    "rises": Kind(
+        "by",
+        "rises by at least {amount:g} over",
+        lambda t: t.change.min(),
+        lambda t: t.change - t.amount,
+        many=True,
+    ),
+    "falls": Kind(
+        "by",
+        "falls by at least {amount:g} over",
+        lambda t: t.change.max(),
+        lambda t: -t.change - t.amount,
+        many=True,
+    ),
+    "greater": Kind(
+        "by",
+        "exceeds {other} by at least {amount:g} at each speed of",
+        lambda t: (t.means - t.other).min(),
+        lambda t: t.means - t.other - t.amount,
+        compares=True,
+    ),
     "differs": Kind(
-        _differs, "by", "differs from {other} by at least {amount:g} in the mean over", compares=True
+        "by",
+        "differs from {other} by at least {amount:g} in the mean over",
+        lambda t: t.apart,
+        lambda t: t.apart - t.amount,
+        compares=True,
     ),
     "nearly_equal": Kind(
-        _nearly_equal, "within", "differ by at most {amount:g} of the least over", many=True
+        "within",
+        "differ by at most {amount:g} of the least over",
+        lambda t: (t.means.max(axis=0) / np.maximum(t.means.min(axis=0), LEAST_M)).max() - 1.0,
+        lambda t: (1.0 + t.amount) * t.means.min(axis=0) - t.means.max(axis=0),
+        many=True,
     ),
-    "peaks": Kind(_peaks, "by", "is greatest, by at least {amount:g}, within"),
-    "steady": Kind(_steady, "value", "has a spread over conditions of at most {amount:g} over", many=True),
+    "peaks": Kind(
+        "by",
+        "is greatest, by at least {amount:g}, within",
+        lambda t: t.speeds_m_s[t.means[0].argmax()],
+        lambda t: t.means[0][t.inside].max() - t.means[0][~t.inside].max() - t.amount,
+    ),
+    "steady": Kind(
+        "value",
+        "has a spread over conditions of at most {amount:g} over",
+        lambda t: t.means.max(),
+        lambda t: t.amount - t.means,
+        many=True,
+        spread=True,
+    ),
 }
 """Name in a problem file → kind."""

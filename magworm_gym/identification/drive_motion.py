@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.arguments import path_of
-from magworm_gym.identification.camera import START_SPAN_S, Camera
+from magworm_gym.identification.camera import START_SPAN_S
 from magworm_gym.identification.deeplabcut import Tracks
+from magworm_gym.identification.filmed import FilmTable
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.sheet import read_sheet
 
@@ -164,15 +165,7 @@ def thinned(time_s: Floats, points_m: Floats, most: int) -> tuple[list[int], flo
 
 
 def drive_from_film(
-    tracks: Tracks,
-    camera: Camera,
-    part: str,
-    magnets: list[str],
-    start_m: Floats,
-    *,
-    duration_s: float,
-    least_likelihood: float,
-    height_m: float | None,
+    tracks: Tracks, film: FilmTable, part: str, start_m: Floats, duration_s: float, height_m: float | None
 ) -> dict[str, Any]:
     """The drive's motion from a body part of the same film.
 
@@ -181,41 +174,39 @@ def drive_from_film(
 
     Args:
         tracks: What the tracking found.
-        camera: The camera.
+        film: How it was filmed.
         part: The body part on the drive magnet.
-        magnets: Body part of each magnet from the head; empty for those that were not tracked.
         start_m: Places of the magnets in the start pose (M, 2) [m].
         duration_s: Duration of the experiment [s].
-        least_likelihood: Points below are left out [1].
         height_m: Height of the drive [m]; None takes the tracked one.
 
     Raises:
         ProblemError: The drive was found in no frame, or no magnet at the start.
     """
-    time_s = camera.time_s(tracks.frames)
-    seen = tracks.sure(part, least_likelihood)
+    time_s = film.time_s(tracks.frames)
+    seen = tracks.sure(part, film.least_likelihood)
     if not seen.any():
-        raise ProblemError(f"{tracks.file}: {part!r} has no likelihood of at least {least_likelihood:g}")
-    points = camera.points_m(tracks.part(part)[seen, :2])
-    if isinstance(camera.origin, str):
-        points = points + _start_offset(tracks, camera, magnets, start_m, least_likelihood)
+        raise ProblemError(f"{tracks.file}: {part!r} has no likelihood of at least {film.least_likelihood:g}")
+    points = film.points_m(tracks.part(part)[seen, :2])
+    if isinstance(film.origin, str):
+        points = points + _start_offset(tracks, film, start_m)
     if height_m is not None:
         points[:, 1] = height_m
     return waypoints(time_s[seen], points, duration_s)[0]
 
 
-def _start_offset(
-    tracks: Tracks, camera: Camera, magnets: list[str], start_m: Floats, least_likelihood: float
-) -> Floats:
+def _start_offset(tracks: Tracks, film: FilmTable, start_m: Floats) -> Floats:
     """Start pose minus tracks in the first 0.1 s (2,) [m]."""
-    time_s = camera.time_s(tracks.frames)
+    time_s = film.time_s(tracks.frames)
     begun = (time_s >= 0.0) & (time_s <= START_SPAN_S)
-    offsets = []
-    for magnet, part in enumerate(magnets):
-        if part:
-            kept = begun & tracks.sure(part, least_likelihood)
-            offsets.append(start_m[magnet] - camera.points_m(tracks.part(part)[kept, :2]))
-    found = np.concatenate(offsets)
+    found = np.concatenate(
+        [
+            start_m[magnet]
+            - film.points_m(tracks.part(part)[begun & tracks.sure(part, film.least_likelihood), :2])
+            for magnet, part in enumerate(film.magnets)
+            if part
+        ]
+    )
     if not len(found):
         raise ProblemError(
             f"{tracks.file}: no magnet is seen in the first {START_SPAN_S:g} s, so the drive's place is "

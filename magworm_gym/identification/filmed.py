@@ -1,23 +1,48 @@
 """Comparing a recording with what a camera saw."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
 
+from magworm_gym.documents import Text
 from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.residual import robust
-from magworm_gym.identification.targets import Outcome, Recordings
+from magworm_gym.identification.targets import Aim, Outcome, Recordings
 from magworm_gym.recording import Recording
 
 Floats = NDArray[np.float64]
 
+DEFAULT_TOLERANCE_PX = 1.5
+
+
+class FilmTable(Camera, frozen=True, kw_only=True):
+    """Tracks and the camera that they were seen with, as they stand in a problem file.
+
+    Attributes:
+        file: Name of the file.
+        magnets: Body part of each magnet from the head; an empty text for one that was not tracked.
+        individual: Which animal, where there are several.
+        least_likelihood: Points below are left out [1].
+        tolerance_m: Deviation that counts as one [m]; None for 1.5 pixels.
+        independent_s: Time after which deviations are independent [s].
+    """
+
+    file: Text
+    magnets: list[str]
+    individual: Text | None = None
+    least_likelihood: Annotated[float, Meta(ge=0.0, le=1.0)] = 0.6
+    tolerance_m: Annotated[float, Meta(ge=1e-9, le=1.0)] | None = None
+    independent_s: Annotated[float, Meta(ge=1e-6, le=1e3)] = 0.1
+
 
 @dataclass(frozen=True)
-class Film:
+class Film(Aim):
     """Confident places of magnets in a film.
 
     Attributes:
@@ -26,9 +51,9 @@ class Film:
         time_s: Times of the places since the experiment began (N,) [s].
         magnet: Which magnet each place is of (N,), counted from the head.
         points_m: The places (N, 2) in the axes of the scene [m].
-        tolerance_m: Deviation that counts as one: what tracking and model may be off [m].
+        tolerance: Deviation that counts as one: what tracking and model may be off [m].
         independent_s: Time after which two deviations count as independent of each other [s].
-        fitted: Whether it is part of the loss.
+        fitted: See :class:`Aim`.
     """
 
     experiment: str
@@ -36,7 +61,7 @@ class Film:
     time_s: Floats
     magnet: NDArray[np.int64]
     points_m: Floats
-    tolerance_m: float
+    tolerance: float
     independent_s: float
     fitted: bool = True
 
@@ -49,6 +74,16 @@ class Film:
     def name(self) -> str:
         """What is compared."""
         return f"{self.experiment}: tracks, rms deviation of a coordinate in m"
+
+    @property
+    def wanted(self) -> str:
+        """A deviation within the tolerance."""
+        return f"within {self.tolerance:g}"
+
+    @property
+    def band(self) -> float:
+        """One tolerance."""
+        return 1.0
 
     @property
     def allowance(self) -> float:
@@ -72,76 +107,60 @@ class Film:
         deviation = model - self.points_m
         return np.asarray(deviation - self.camera.offset_m(self.time_s, deviation))
 
+    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
+        """The root mean square deviation of a coordinate (1,), outliers left out."""
+        rms = float(np.sqrt(np.mean(np.square(self._usual(recordings)))))
+        return rms, np.array([rms / self.tolerance])
+
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (2 N,) [1], scaled so that the film counts for ``weight`` measurements."""
-        deviation = self.deviation_m(recordings[self.experiment]).ravel() / self.tolerance_m
+        deviation = self.deviation_m(recordings[self.experiment]).ravel() / self.tolerance
         return np.asarray(robust(deviation) * np.sqrt(self.weight / deviation.size))
 
     def outcome(self, recordings: Recordings) -> Outcome:
-        """How well it is met: the root mean square deviation of a coordinate, outliers left out."""
-        deviation = self.deviation_m(recordings[self.experiment])
-        usual = np.abs(deviation) < 5.0 * max(self.tolerance_m, 1.4826 * float(np.median(np.abs(deviation))))
-        rms = float(np.sqrt(np.mean(np.square(deviation[usual]))))
-        return Outcome(
-            name=self.name,
-            target=f"within {self.tolerance_m:g}",
-            model=rms,
-            error_percent=None,
-            error_tolerances=rms / self.tolerance_m,
-            loss=float(np.square(self.residuals(recordings)).sum()),
-            remark=f"{len(self.time_s)} points of magnets, {np.count_nonzero(~usual)} of "
-            f"{usual.size} coordinates are outliers",
-            met=rms <= self.tolerance_m,
+        """How well it is met, and how many outliers there are."""
+        coordinates = self.points_m.size
+        outliers = coordinates - self._usual(recordings).size
+        return replace(
+            super().outcome(recordings),
+            remark=f"{len(self.time_s)} points of magnets, {outliers} of {coordinates} coordinates are "
+            "outliers",
         )
 
+    def _usual(self, recordings: Recordings) -> Floats:
+        """Deviations of coordinates (U,) that are no outliers [m]."""
+        deviation = self.deviation_m(recordings[self.experiment])
+        spread = 1.4826 * float(np.median(np.abs(deviation)))
+        return np.asarray(deviation[np.abs(deviation) < 5.0 * max(self.tolerance, spread)])
 
-def film(
-    experiment: str,
-    tracks: Tracks,
-    camera: Camera,
-    parts: list[str],
-    *,
-    duration_s: float,
-    least_likelihood: float,
-    tolerance_m: float,
-    independent_s: float,
-) -> Film:
+
+def film(experiment: str, tracks: Tracks, table: FilmTable, duration_s: float) -> Film:
     """Picks the confident points of an experiment.
 
     Args:
         experiment: Its name.
         tracks: What the tracking found.
-        camera: The camera.
-        parts: Body part of each magnet from the head; an empty text for one that was not tracked.
+        table: How it was filmed.
         duration_s: Duration of the experiment [s].
-        least_likelihood: Points below are left out [1].
-        tolerance_m: Deviation that counts as one [m].
-        independent_s: Time after which deviations are independent [s].
 
     Raises:
         ProblemError: No such body part, or nothing left of it.
     """
-    time_s = camera.time_s(tracks.frames)
+    time_s = table.time_s(tracks.frames)
+    during = (time_s >= 0.0) & (time_s <= duration_s + 1e-9)
     times, magnets, points = [], [], []
-    for magnet, part in enumerate(parts):
+    for magnet, part in enumerate(table.magnets):
         if not part:
             continue
-        kept = (time_s >= 0.0) & (time_s <= duration_s + 1e-9)
-        kept &= tracks.sure(part, least_likelihood)
+        kept = during & tracks.sure(part, table.least_likelihood)
         if not kept.any():
             raise ProblemError(
                 f"{tracks.file}: no frame of {part!r} lies between 0 and {duration_s:g} s of experiment "
-                f"{experiment!r} with a likelihood of at least {least_likelihood:g}"
+                f"{experiment!r} with a likelihood of at least {table.least_likelihood:g}"
             )
         times.append(time_s[kept])
         magnets.append(np.full(np.count_nonzero(kept), magnet))
-        points.append(camera.points_m(tracks.part(part)[kept, :2]))
-    return Film(
-        experiment,
-        camera,
-        np.concatenate(times),
-        np.concatenate(magnets),
-        np.concatenate(points),
-        tolerance_m,
-        independent_s,
-    )
+        points.append(table.points_m(tracks.part(part)[kept, :2]))
+    joined = np.concatenate(times), np.concatenate(magnets), np.concatenate(points)
+    tolerance_m = table.tolerance_m or DEFAULT_TOLERANCE_PX * table.metres_per_pixel
+    return Film(experiment, table, *joined, tolerance_m, table.independent_s)

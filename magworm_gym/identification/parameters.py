@@ -1,35 +1,49 @@
 """Parameters that are fitted, as points of a unit cube."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import exp, log
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.documents import Number, Table, Text
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.table import Table
 
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Parameter:
+class Bounds(Table, frozen=True):
+    """Between which values a parameter is fitted.
+
+    Attributes:
+        low: Lower bound, in the field's unit; of the ratio where ``times`` is given [1].
+        high: Upper bound.
+        scale: ``"log"`` where equal ratios count as equal distances.
+        times: Path of another parameter; the field is then the fitted ratio times that one.
+    """
+
+    low: Number
+    high: Number
+    scale: Literal["linear", "log"] = "linear"
+    times: Text | None = None
+
+    def __post_init__(self) -> None:
+        """Refuses bounds in the wrong order, and logarithms of what is not positive."""
+        if self.low >= self.high:
+            raise ValueError(f"low is {self.low!r}; allowed: a number less than high = {self.high:g}")
+        if self.scale == "log" and self.low <= 0.0:
+            raise ValueError(f'low is {self.low!r}; allowed: a number greater than 0 where scale = "log"')
+
+
+class Parameter(Bounds, frozen=True, kw_only=True):
     """A field of the scene that is fitted.
 
     Attributes:
         path: Dotted path of the field.
-        low: Lower bound, in the field's unit; of the ratio where ``times`` is given [1].
-        high: Upper bound.
-        logarithmic: Whether equal ratios count as equal distances.
-        times: Path of another parameter; the field is then the fitted ratio times that one.
     """
 
     path: str
-    low: float
-    high: float
-    logarithmic: bool = False
-    times: str | None = None
 
     @property
     def label(self) -> str:
@@ -38,32 +52,15 @@ class Parameter:
 
     def value(self, unit: float) -> float:
         """Value at a coordinate of the unit cube."""
-        if self.logarithmic:
+        if self.scale == "log":
             return min(max(exp(log(self.low) + unit * log(self.high / self.low)), self.low), self.high)
         return min(max(self.low + unit * (self.high - self.low), self.low), self.high)
 
     def unit(self, value: float) -> float:
         """Coordinate in the unit cube of a value; beyond 0 to 1 where it is out of bounds."""
-        if self.logarithmic:
+        if self.scale == "log":
             return log(max(value, 1e-300) / self.low) / log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
-
-
-def read_parameter(path: str, table: Table) -> Parameter:
-    """Reads ``{ low, high, scale, times }``.
-
-    Raises:
-        ProblemError: A bound is missing or they are in the wrong order.
-    """
-    low, high = table.number("low"), table.number("high")
-    if low >= high:
-        raise table.refusal("low", low, f"a number less than high = {high:g}")
-    logarithmic = table.choice("scale", "linear", ("linear", "log")) == "log"
-    if logarithmic and low <= 0.0:
-        raise table.refusal("low", low, 'a number greater than 0 where scale = "log"')
-    times = table.text("times") if table.has("times") else None
-    table.done()
-    return Parameter(path, low, high, logarithmic, times)
 
 
 class ParameterSpace:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from magworm_gym._magworm import Scene
-from magworm_gym.identification.table import parse_toml
+from magworm_gym.documents import parse_toml
 
 
 def dotted(

@@ -2,28 +2,37 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta, field
+from msgspec.structs import asdict
 
 from magworm_gym import __version__
 from magworm_gym._magworm import Scene, SceneError
-from magworm_gym.identification.claim_file import read_claim
+from magworm_gym.documents import Number, Table, Text, checked
+from magworm_gym.identification.claim_file import ClaimTable, read_claim
 from magworm_gym.identification.claims import Claim
 from magworm_gym.identification.experiment import Experiment, Run, edited_scene
+from magworm_gym.identification.experiment_file import (
+    ComparisonTable,
+    ExperimentTable,
+    Found,
+    read_comparison,
+    read_experiment,
+)
 from magworm_gym.identification.limit import threshold
-from magworm_gym.identification.measurements import read_comparison, read_film, read_targets
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.parameters import ParameterSpace, read_parameter
+from magworm_gym.identification.parameters import Bounds, Parameter, ParameterSpace
 from magworm_gym.identification.paths import dotted, scene_numbers, scene_paths, whole_numbers
 from magworm_gym.identification.plain_check import doubts
-from magworm_gym.identification.settings import SearchSettings, read_settings
+from magworm_gym.identification.settings import SearchSettings
 from magworm_gym.identification.sweep import Sweep
-from magworm_gym.identification.sweep_file import read_sweeps
-from magworm_gym.identification.table import Table
+from magworm_gym.identification.sweep_file import SweepTable, read_sweeps
 from magworm_gym.identification.targets import Aim
 from magworm_gym.scene import load_scene
 
@@ -99,6 +108,28 @@ class Problem:
         return threshold(loss, self.measurements, len(self.space))
 
 
+class StartTable(Table, frozen=True):
+    """A known robot."""
+
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+class ProblemTable(Table, frozen=True):
+    """A problem file; what ``like`` names is part of it already."""
+
+    scene: Text
+    values: dict[str, Any] = field(default_factory=dict)
+    parameters: dict[str, Any] = field(default_factory=dict)
+    experiment: tuple[ExperimentTable, ...] = ()
+    sweep: tuple[SweepTable, ...] = ()
+    comparison: tuple[ComparisonTable, ...] = ()
+    claim: tuple[ClaimTable, ...] = ()
+    start: tuple[StartTable, ...] = ()
+    without: Annotated[tuple[str, ...], Meta(description="a list of groups of claims")] = ()
+    sample_s: Annotated[float, Meta(ge=1e-7, le=1.0)] | None = None
+    search: SearchSettings = SearchSettings()
+
+
 def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     """Makes a problem from what a problem file holds.
 
@@ -109,142 +140,111 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     Raises:
         ProblemError: A mistake in it or in a file that it names.
     """
-    table = Table(entries, "")
-    name, scene = _base(table, folder)
-    fixed = scene_paths(table.mapping("values"), scene)
+    table = checked(entries, ProblemTable, mistake=ProblemError)
+    scene = _scene(table.scene, folder)
+    fixed = scene_paths(table.values, scene)
     base = edited_scene(scene, fixed, "values")
-    space = _space(table)
-    experiments, aims, remarks = _experiments(table, base, space, folder)
-    sweeps = _sweeps(table, base, {experiment.name for experiment in experiments})
-    if not experiments and not sweeps:
-        raise ProblemError("experiment is missing; allowed: at least one [[experiment]] or one [[sweep]]")
-    names = {experiment.name: experiment.scene.magnets for experiment in experiments}
-    aims += [read_comparison(each, names) for each in table.tables("comparison")]
-    aims += _claims(table, sweeps)
-    starts = tuple(_start(each) for each in table.tables("start"))
+    space = _space(table.parameters)
+    found = _experiments(table.experiment, base, folder)
+    experiments = [each.experiment for each in found]
+    sweeps = _sweeps(table.sweep, base, {experiment.name for experiment in experiments})
     runs: list[Run] = [*experiments, *sweeps]
-    sample_s = _sample(table, runs)
-    settings = read_settings(Table(table.take("search", {}), "search"))
-    table.done()
+    if not runs:
+        raise ProblemError("experiment is missing; allowed: at least one [[experiment]] or one [[sweep]]")
+    magnets = {experiment.name: experiment.scene.magnets for experiment in experiments}
+    aims = [aim for each in found for aim in each.aims]
+    aims += [read_comparison(each, f"comparison[{at}]", magnets) for at, each in enumerate(table.comparison)]
+    aims += _claims(table, sweeps)
     if not any(aim.fitted for aim in aims):
         raise ProblemError("nothing is fitted; allowed: at least one target, track, comparison or claim")
     _check_paths(space, runs)
     return Problem(
-        base_name=name,
+        base_name=table.scene,
         base=base,
         fixed=tuple(fixed),
         space=space,
         experiments=tuple(experiments),
         sweeps=tuple(sweeps),
         aims=tuple(aims),
-        starts=starts,
-        sample_s=sample_s,
-        settings=settings,
+        starts=tuple(_start(each, at) for at, each in enumerate(table.start)),
+        sample_s=_sample(table.sample_s, runs),
+        settings=table.search,
         fingerprint=_fingerprint(entries, base, runs, aims),
-        remarks=tuple(remarks),
+        remarks=tuple(remark for each in found for remark in each.remarks),
     )
 
 
-def _base(table: Table, folder: Path) -> tuple[str, Scene]:
-    name = table.text("scene")
+def _scene(name: str, folder: Path) -> Scene:
     path = folder / name
     try:
-        return name, load_scene(path if path.is_file() else name)
+        return load_scene(path if path.is_file() else name)
     except SceneError as error:
         raise ProblemError(f"scene: {error}" if path.is_file() else str(error)) from error
 
 
-def _space(table: Table) -> ParameterSpace:
-    entries = dotted(table.mapping("parameters"), lambda _, value: not BOUNDS & value.keys())
-    return ParameterSpace(
-        [read_parameter(path, Table(entry, f"parameters.{path}")) for path, entry in entries.items()]
-    )
-
-
-def _experiments(
-    table: Table, base: Scene, space: ParameterSpace, folder: Path
-) -> tuple[list[Experiment], list[Aim], list[str]]:
-    experiments: list[Experiment] = []
-    aims: list[Aim] = []
-    remarks: list[str] = []
-    for each in table.tables("experiment"):
-        name = each.text("name", f"experiment-{len(experiments) + 1}")
-        if name in {experiment.name for experiment in experiments} or "." in name:
-            raise each.refusal("name", name, "a name without a dot that no other experiment has")
-        values = scene_paths(each.mapping("values"), base)
-        scene = edited_scene(base, values, each.place("values"))
-        if not scene.magnets:
-            raise ProblemError(f"{each.where}: the scene has no body magnets; allowed: a scene with some")
-        filmed, motion, duration_s, more = read_film(each, name, scene, folder)
-        remarks += more
-        if motion is not None:
-            scene = edited_scene(scene, {"drive.motion": motion}, each.place("drive"))
-            values["drive.motion"] = motion
-        aims += ([filmed] if filmed else []) + read_targets(each, name, scene.magnets)
-        each.done()
-        if scene.controlled:
-            raise ProblemError(
-                f"{each.where}: the drive is a controlled one and would stand still; allowed: values with "
-                '"drive.motion" of kind "constant" or "waypoints", or drive'
-            )
-        experiments.append(Experiment(name, duration_s, scene, _known(values, scene, space)))
-    return experiments, aims, remarks
-
-
-def _known(values: dict[str, Any], scene: Scene, space: ParameterSpace) -> frozenset[str]:
-    """Paths that values set, also those of parameters within a table that leaves them out."""
-    numbers = scene_numbers(scene)
-    left_out = {
-        parameter.path
-        for parameter in space.parameters
-        if parameter.path not in numbers and any(parameter.path.startswith(f"{path}.") for path in values)
+def _space(parameters: dict[str, Any]) -> ParameterSpace:
+    entries = dotted(parameters, lambda _, value: not BOUNDS & value.keys())
+    bounds = {
+        path: checked(each, Bounds, f"parameters.{path}", ProblemError) for path, each in entries.items()
     }
-    return frozenset(values) | left_out
+    return ParameterSpace([Parameter(path=path, **asdict(each)) for path, each in bounds.items()])
 
 
-def _sweeps(table: Table, base: Scene, taken: set[str]) -> list[Sweep]:
+def _experiments(tables: Sequence[ExperimentTable], base: Scene, folder: Path) -> list[Found]:
+    found: dict[str, Found] = {}
+    for at, table in enumerate(tables):
+        where, name = f"experiment[{at}]", table.name or f"experiment-{at + 1}"
+        if name in found or "." in name:
+            raise ProblemError(
+                f"{where}.name is {name!r}; allowed: a name without a dot that no other experiment has"
+            )
+        found[name] = read_experiment(table, name, where, base, folder)
+    return list(found.values())
+
+
+def _sweeps(tables: Sequence[SweepTable], base: Scene, taken: set[str]) -> list[Sweep]:
     sweeps: list[Sweep] = []
-    for each in table.tables("sweep"):
-        read = read_sweeps(each, base)
-        for sweep in read:
-            if sweep.name in taken:
-                raise each.refusal("name", sweep.name, "a name that no other run has")
-        taken |= {sweep.name for sweep in read}
+    for at, table in enumerate(tables):
+        read = read_sweeps(table, f"sweep[{at}]", base)
+        if twice := [sweep.name for sweep in read if sweep.name in taken]:
+            raise ProblemError(f"sweep[{at}].name is {twice[0]!r}; allowed: a name that no other run has")
+        taken = taken | {sweep.name for sweep in read}
         sweeps += read
     return sweeps
 
 
-def _claims(table: Table, sweeps: list[Sweep]) -> list[Claim]:
+def _claims(table: ProblemTable, sweeps: list[Sweep]) -> list[Claim]:
     """Claims; those of a group that is left out are only reported."""
-    claims = [read_claim(each, {sweep.name: sweep for sweep in sweeps}) for each in table.tables("claim")]
+    named = {sweep.name: sweep for sweep in sweeps}
+    claims = [read_claim(each, f"claim[{at}]", named) for at, each in enumerate(table.claim)]
     groups = sorted({claim.group for claim in claims if claim.group})
-    without = table.take("without", [])
-    if not isinstance(without, list) or not set(without) <= set(groups):
-        raise table.refusal(
-            "without", without, f"a list of groups of claims, of {', '.join(groups) or 'none'}"
+    if not set(table.without) <= set(groups):
+        raise ProblemError(
+            f"without is {list(table.without)}; allowed: a list of groups of claims, of "
+            f"{', '.join(groups) or 'none'}"
         )
-    return [replace(claim, fitted=claim.fitted and claim.group not in without) for claim in claims]
+    return [replace(claim, fitted=claim.fitted and claim.group not in table.without) for claim in claims]
 
 
-def _start(table: Table) -> dict[str, float]:
+def _start(table: StartTable, at: int) -> dict[str, float]:
     """Field values of a known robot."""
-    values = dotted(table.mapping("values"), lambda *_: True)
-    table.done()
-    for path, value in values.items():
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ProblemError(f"{table.place('values')}.{path} is {value!r}; allowed: a number")
-    return {path: float(value) for path, value in values.items()}
+    values = dotted(table.values, lambda *_: True)
+    return {
+        path: checked(each, Number, f"start[{at}].values.{path}", ProblemError)
+        for path, each in values.items()
+    }
 
 
-def _sample(table: Table, runs: list[Run]) -> float:
-    steps = [_scene_value(run.scene, "solver.step_s") or 1e-3 for run in runs]
+def _sample(asked_s: float | None, runs: list[Run]) -> float:
+    steps = [scene_numbers(run.scene).get("solver.step_s") or 1e-3 for run in runs]
     longest = max(steps)
-    usual = longest * max(1, ceil(LEAST_SAMPLE_S / longest - 1e-6))
-    sample_s = table.number("sample_s", usual, low=1e-7, high=1.0)
+    sample_s = asked_s or longest * max(1, ceil(LEAST_SAMPLE_S / longest - 1e-6))
     for run, step_s in zip(runs, steps, strict=True):
         if not _whole(sample_s / step_s):
-            allowed = f"a whole number of solver steps of {step_s:g} s, as in {run.name!r}"
-            raise table.refusal("sample_s", sample_s, allowed)
+            raise ProblemError(
+                f"sample_s is {sample_s}; allowed: a whole number of solver steps of {step_s:g} s, "
+                f"as in {run.name!r}"
+            )
         if isinstance(run, Experiment) and not _whole(run.duration_s / sample_s):
             raise ProblemError(
                 f"duration_s of experiment {run.name!r} is {run.duration_s:g}; "
@@ -278,15 +278,11 @@ def _check_paths(space: ParameterSpace, runs: list[Run]) -> None:
                     f"parameters.{parameter.path} is a whole number and cannot be fitted; allowed: "
                     "a number that may have decimals (give this one by values or --set, and fit the others)"
                 )
-            if _scene_value(run.scene, parameter.path) is None:
+            if parameter.path not in scene_numbers(run.scene):
                 raise ProblemError(
                     f"parameters.{parameter.path} is no number in the scene of experiment "
                     f"{run.name!r}; allowed: the path of one, such as material.youngs_modulus_pa"
                 )
-
-
-def _scene_value(scene: Scene, path: str) -> float | None:
-    return scene_numbers(scene).get(path)
 
 
 def _fingerprint(entries: Mapping[str, Any], base: Scene, runs: list[Run], aims: list[Aim]) -> str:

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from magworm_gym.arguments import path_of
+from magworm_gym.documents import parse_toml
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.problem import Problem, make_problem
 from magworm_gym.identification.sheet import read_text
-from magworm_gym.identification.table import parse_toml
 
 MOST_FILES = 8
 """Most files that are each like the next."""
@@ -45,7 +45,7 @@ def read_problem(
 
 def _entries(path: Path, most: int = MOST_FILES - 1) -> dict[str, Any]:
     """What a file holds and the file that it is like: it adds to tables and replaces lists."""
-    entries = parse_toml(read_text(path, "problem file"), str(path))
+    entries = parse_toml(read_text(path, "problem file"), str(path), ProblemError)
     like = entries.pop("like", None)
     if like is None:
         return entries

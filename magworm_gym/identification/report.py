@@ -147,7 +147,7 @@ def _parameter_table(found: Identification) -> list[str]:
             f"{f.fits_from:.5g} to {f.fits_to:.5g}",
             f"{100.0 * f.part:.1f} %",
             f"{spread} ({len(restarts)} of {len(found.evolutions)})",
-            f"{parameter.low:g} to {parameter.high:g}{', log' if parameter.logarithmic else ''}",
+            f"{parameter.low:g} to {parameter.high:g}{', log' if parameter.scale == 'log' else ''}",
             f"{_part(f.alone)}, {_part(f.deviation)}",
         ]
         rows.append(f"| {' | '.join(cells)} |")
@@ -324,7 +324,7 @@ def _finding_json(finding: Finding) -> dict[str, Any]:
         "field_value": finding.field_value,
         "low": parameter.low,
         "high": parameter.high,
-        "scale": "log" if parameter.logarithmic else "linear",
+        "scale": parameter.scale,
         "verdict": finding.verdict,
         "sentences": finding.sentences(),
         "on_bound": finding.bound or None,

@@ -1,13 +1,17 @@
 """Settings of the search."""
 
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
-from magworm_gym.identification.table import Table
+from msgspec import Meta
+
+from magworm_gym.documents import Table
+
+RISING = "a list of whole numbers from 1, each greater than the last"
+Count = Annotated[int, Meta(ge=1, le=10**9)]
 
 
-@dataclass(frozen=True)
-class SearchSettings:
+class SearchSettings(Table, frozen=True):
     """Settings of the search; all candidates of a generation run side by side.
 
     Attributes:
@@ -27,53 +31,21 @@ class SearchSettings:
         seed: Seed of everything random.
     """
 
-    restarts: int = 5
-    population: int = 32
-    generations: int = 100
-    patience: int = 30
-    halve_after: tuple[int, ...] = ()
-    scatter: int = 256
+    restarts: Annotated[int, Meta(ge=1, le=1000)] = 5
+    population: Annotated[int, Meta(ge=4, le=10_000)] = 32
+    generations: Count = 100
+    patience: Count = 30
+    halve_after: Annotated[tuple[Count, ...], Meta(description=RISING)] = ()
+    scatter: Annotated[int, Meta(ge=8, le=1_000_000)] = 256
     blind: bool = False
-    rounds: int = 30
-    first_step: float = 0.15
-    finest_step: float = 2e-4
-    fits_within: float | None = None
-    fits_below: float = 0.0
-    seed: int = 0
+    rounds: Annotated[int, Meta(ge=0, le=10**9)] = 30
+    first_step: Annotated[float, Meta(ge=1e-3, le=1.0)] = 0.15
+    finest_step: Annotated[float, Meta(ge=1e-9, le=0.1)] = 2e-4
+    fits_within: Annotated[float, Meta(ge=1.0, le=1e3)] | None = None
+    fits_below: Annotated[float, Meta(ge=0.0, le=1e6)] = 0.0
+    seed: Annotated[int, Meta(ge=0, le=2**31 - 1)] = 0
 
-
-def read_settings(table: Table) -> SearchSettings:
-    """Reads the table ``search``; what it leaves out has its default.
-
-    Raises:
-        ProblemError: A value that is not allowed.
-    """
-    default = SearchSettings()
-    settings = SearchSettings(
-        restarts=table.whole("restarts", default.restarts, low=1, high=1000),
-        population=table.whole("population", default.population, low=4, high=10_000),
-        generations=table.whole("generations", default.generations, low=1),
-        patience=table.whole("patience", default.patience, low=1),
-        halve_after=_generations(table),
-        blind=table.flag("blind", default.blind),
-        scatter=table.whole("scatter", default.scatter, low=8, high=1_000_000),
-        rounds=table.whole("rounds", default.rounds, low=0),
-        first_step=table.number("first_step", default.first_step, low=1e-3, high=1.0),
-        finest_step=table.number("finest_step", default.finest_step, low=1e-9, high=0.1),
-        fits_within=table.number("fits_within", low=1.0, high=1e3) if table.has("fits_within") else None,
-        fits_below=table.number("fits_below", default.fits_below, low=0.0, high=1e6),
-        seed=table.whole("seed", default.seed, low=0, high=2**31 - 1),
-    )
-    table.done()
-    return settings
-
-
-def _generations(table: Table) -> tuple[int, ...]:
-    """Takes ``halve_after``."""
-    value = table.take("halve_after", [])
-    whole = isinstance(value, list) and all(type(each) is int and each >= 1 for each in value)
-    if not whole or any(one >= other for one, other in pairwise(value)):
-        raise table.refusal(
-            "halve_after", value, "a list of whole numbers from 1, each greater than the last"
-        )
-    return tuple(value)
+    def __post_init__(self) -> None:
+        """Refuses generations that do not rise."""
+        if any(one >= other for one, other in pairwise(self.halve_after)):
+            raise ValueError(f"halve_after is {list(self.halve_after)}; allowed: {RISING}")

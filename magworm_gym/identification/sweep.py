@@ -8,11 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
+from typing import Annotated
 
+import msgspec
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch, Scene
+from magworm_gym.documents import Table
 from magworm_gym.identification.experiment import fitted_scene
 from magworm_gym.recording import Recording
 
@@ -25,19 +29,18 @@ SPEED = "drive_speed"
 """Name of the factor of the drive's speed."""
 
 
-@dataclass(frozen=True)
-class Passes:
+class Passes(Table, frozen=True):
     """Passes of a belt that are measured.
 
     Attributes:
         pitch_m: Distance between its magnets [m].
-        first: Passes that are left out at the beginning.
-        count: Passes that are measured.
+        first: Passes that are left out at the beginning; ``first_passes`` in a problem file.
+        count: Passes that are measured; ``passes`` there.
     """
 
-    pitch_m: float
-    first: int
-    count: int
+    pitch_m: Annotated[float, Meta(ge=0.01, le=10.0)]
+    first: Annotated[int, Meta(ge=0, le=1000)] = msgspec.field(default=0, name="first_passes")
+    count: Annotated[int, Meta(ge=1, le=1000)] = msgspec.field(default=1, name="passes")
 
 
 @dataclass(frozen=True)

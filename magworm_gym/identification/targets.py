@@ -1,8 +1,8 @@
 """What a robot is to do: a number, a number within bounds, or one number greater than another."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,38 +43,79 @@ class Outcome:
     fitted: bool = True
 
 
-class Aim(Protocol):
-    """Something that recordings are compared with."""
+class Aim(ABC):
+    """Something that recordings are compared with.
 
-    @property
-    def name(self) -> str:
-        """What it is called in a report."""
+    Attributes:
+        fitted: Whether it is part of the loss; else it is only reported.
+        tolerance: Deviation that counts as one, in the unit of what is measured.
+    """
+
+    fitted: bool
+    tolerance: float
 
     @property
     def weight(self) -> float:
         """Number of independent measurements that it counts for [1]."""
+        return 1.0
 
     @property
-    def fitted(self) -> bool:
-        """Whether it is part of the loss; else it is only reported."""
+    def asked(self) -> float | None:
+        """The value that is asked for, in the unit of what is measured; None where none is."""
+        return None
 
     @property
+    def band(self) -> float:
+        """Deviation up to which it is met, in tolerances [1]; nothing of a bound."""
+        return 0.0
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """What it is called in a report."""
+
+    @property
+    @abstractmethod
+    def wanted(self) -> str:
+        """What it asks for, in words."""
+
+    @property
+    @abstractmethod
     def sources(self) -> frozenset[str]:
         """Names of the experiments and sweeps whose recordings it needs."""
+
+    @abstractmethod
+    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
+        """What the model gives, in the unit of what is measured, and deviations (D,) in tolerances [1]."""
 
     @property
     def allowance(self) -> float:
         """Greatest share of the loss with which it can be met [1]."""
+        return float(np.square(guiding(self.band)))
 
     def residuals(self, recordings: Recordings) -> Floats:
-        """Residuals (R,) [1]; their squares add up to the loss."""
+        """Residuals (D,) [1]; their squares add up to its share of the loss, one measurement in all."""
+        _, deviations = self.compared(recordings)
+        return np.asarray(guiding(deviations) / np.sqrt(deviations.size))
 
     def outcome(self, recordings: Recordings) -> Outcome:
         """How well it is met."""
+        model, deviations = self.compared(recordings)
+        worst = float(deviations[np.abs(deviations).argmax()])
+        return Outcome(
+            name=self.name,
+            target=self.wanted,
+            model=model,
+            error_percent=100.0 * worst * self.tolerance / abs(self.asked) if self.asked else None,
+            error_tolerances=worst,
+            loss=float(np.square(self.residuals(recordings)).sum()),
+            met=abs(worst) <= self.band,
+            fitted=self.fitted,
+        )
 
 
 @dataclass(frozen=True)
-class Target:
+class Target(Aim):
     """A quantity of one experiment: equal to a value, or within bounds.
 
     Attributes:
@@ -82,8 +123,8 @@ class Target:
         quantity: What is measured.
         low: Least value allowed, in the unit of the quantity; equal to ``high`` for a value.
         high: Greatest value allowed.
-        tolerance: Deviation that counts as one, in the unit of the quantity.
-        fitted: Whether it is part of the loss.
+        tolerance: See :class:`Aim`; a value is met within one.
+        fitted: See :class:`Aim`.
     """
 
     experiment: str
@@ -92,7 +133,6 @@ class Target:
     high: float
     tolerance: float
     fitted: bool = True
-    weight: float = 1.0
 
     @property
     def sources(self) -> frozenset[str]:
@@ -105,57 +145,40 @@ class Target:
         return f"{self.experiment}: {self.quantity}"
 
     @property
-    def allowance(self) -> float:
+    def asked(self) -> float | None:
+        """The value, where bounds are equal."""
+        return self.low if self.low == self.high else None
+
+    @property
+    def band(self) -> float:
         """One tolerance of a value; nothing of a bound."""
-        return 1.0 if self.low == self.high else 0.0
+        return 0.0 if self.asked is None else 1.0
 
-    def deviation(self, recordings: Recordings) -> float:
-        """How far outside of the bounds the model is, in tolerances [1]."""
-        model = self.quantity.measure(recordings[self.experiment])
-        return (model - min(max(model, self.low), self.high)) / self.tolerance
-
-    def residuals(self, recordings: Recordings) -> Floats:
-        """Residual (1,) [1]."""
-        return guiding([self.deviation(recordings)])
-
-    def outcome(self, recordings: Recordings) -> Outcome:
-        """How well it is met."""
-        model, deviation = self.quantity.measure(recordings[self.experiment]), self.deviation(recordings)
-        percent = None
-        if self.low == self.high and self.low != 0.0:
-            percent = 100.0 * (model - self.low) / abs(self.low)
-        loss = float(np.square(self.residuals(recordings)).sum())
-        return Outcome(
-            name=self.name,
-            target=self._words(),
-            model=model,
-            error_percent=percent,
-            error_tolerances=deviation,
-            loss=loss,
-            met=abs(deviation) <= self.allowance,
-            fitted=self.fitted,
-        )
-
-    def _words(self) -> str:
-        if self.low == self.high:
+    @property
+    def wanted(self) -> str:
+        """The value, or the bounds that there are."""
+        if self.asked is not None:
             return f"{self.low:g} ± {self.tolerance:g}"
         if np.isinf(self.high):
             return f"at least {self.low:g}"
-        if np.isinf(self.low):
-            return f"at most {self.high:g}"
-        return f"{self.low:g} to {self.high:g}"
+        return f"at most {self.high:g}" if np.isinf(self.low) else f"{self.low:g} to {self.high:g}"
+
+    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
+        """The quantity, and how far outside of the bounds it is (1,)."""
+        model = self.quantity.measure(recordings[self.experiment])
+        return model, np.array([(model - min(max(model, self.low), self.high)) / self.tolerance])
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Aim):
     """One quantity is greater than another, perhaps of another experiment.
 
     Attributes:
         greater: Experiment and quantity that is to be the greater one.
         less: Experiment and quantity that is to be the smaller one.
         by: By how much at least, in the unit of the quantities.
-        tolerance: Deviation that counts as one, in the unit of the quantities.
-        fitted: Whether it is part of the loss.
+        tolerance: See :class:`Aim`.
+        fitted: See :class:`Aim`.
     """
 
     greater: tuple[str, Quantity]
@@ -163,8 +186,6 @@ class Comparison:
     by: float
     tolerance: float
     fitted: bool = True
-    weight: float = 1.0
-    allowance: float = 0.0
 
     @property
     def sources(self) -> frozenset[str]:
@@ -176,30 +197,12 @@ class Comparison:
         """Both quantities."""
         return f"{self.greater[0]}: {self.greater[1]} minus {self.less[0]}: {self.less[1]}"
 
-    def margin(self, recordings: Recordings) -> float:
-        """Greater minus smaller, in the unit of the quantities."""
-        (first, great), (second, small) = self.greater, self.less
-        return great.measure(recordings[first]) - small.measure(recordings[second])
+    @property
+    def wanted(self) -> str:
+        """The least margin."""
+        return f"at least {self.by:g}"
 
-    def deviation(self, recordings: Recordings) -> float:
-        """What the margin lacks, in tolerances; not positive [1]."""
-        return min(self.margin(recordings) - self.by, 0.0) / self.tolerance
-
-    def residuals(self, recordings: Recordings) -> Floats:
-        """Residual (1,) [1]."""
-        return guiding([self.deviation(recordings)])
-
-    def outcome(self, recordings: Recordings) -> Outcome:
-        """How well it is met; the model's value is the margin."""
-        loss = float(np.square(self.residuals(recordings)).sum())
-        deviation = self.deviation(recordings)
-        return Outcome(
-            name=self.name,
-            target=f"at least {self.by:g}",
-            model=self.margin(recordings),
-            error_percent=None,
-            error_tolerances=deviation,
-            loss=loss,
-            met=deviation == 0.0,
-            fitted=self.fitted,
-        )
+    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
+        """Greater minus smaller, and what that lacks (1,)."""
+        greater, less = (quantity.measure(recordings[name]) for name, quantity in (self.greater, self.less))
+        return greater - less, np.array([min(greater - less - self.by, 0.0) / self.tolerance])
