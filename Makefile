@@ -75,12 +75,12 @@ identify: install-test  ## identify the presets again, an hour: docs/identificat
 	for problem in paper-3-simulation paper-joint; do \
 		$(dir $(VENV_PYTHON))magworm identify studies/identification/$$problem.toml \
 			--out runs/identify/$$problem && \
-		$(VENV_PYTHON) studies/identification/settle_presets.py $$problem && \
+		$(VENV_PYTHON) -m studies.identification.settle_presets $$problem && \
 		$(MAKE) install || exit 1; \
 	done
 
 identify-joint: install-test  ## one robot for all figures, from blind starts, for hours: docs/identification/joint.md
-	$(VENV_PYTHON) studies/identification/joint.py --problems studies/identification/paper-joint*.toml
+	$(VENV_PYTHON) -m studies.identification.joint --problems studies/identification/paper-joint*.toml
 
 ##@ Parts
 

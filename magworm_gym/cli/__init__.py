@@ -3,11 +3,13 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from typing import NoReturn
 
 from magworm_gym import PolicyError, SceneError, __version__
-from magworm_gym.cli import example_tracks, identify, policies
-from magworm_gym.identification.mistake import ProblemError
+
+COMMANDS = {"identify": "identify", "example-tracks": "identify", "policies": ""}
+"""Module of this package that adds a command → the extra that it needs."""
 
 MISTAKE = 2
 INTERRUPTED = 130
@@ -20,10 +22,10 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         arguments: Without the program's name; None for those of the process.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
-    parsed = _parser().parse_args(_no_flags(words), argparse.Namespace(words=words))
+    parsed = _parser().parse_args(_no_flags(words), argparse.Namespace(words=words, mistake=SceneError))
     try:
         parsed.run(parsed)
-    except (ProblemError, SceneError, PolicyError, ImportError) as mistake:
+    except (parsed.mistake, SceneError, PolicyError, ImportError) as mistake:
         if isinstance(mistake, ImportError) and "pip install" not in str(mistake):
             raise
         print(f"magworm {parsed.command}: {mistake}", file=sys.stderr)
@@ -51,7 +53,20 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="magworm", description="Tools of the MagWorm simulator.")
     parser.add_argument("--version", action="version", version=f"magworm-gym {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="command")
-    identify.add_to(commands)
-    example_tracks.add_to(commands)
-    policies.add_to(commands)
+    for name, extra in COMMANDS.items():
+        try:
+            import_module(f"magworm_gym.cli.{name.replace('-', '_')}").add_to(commands)
+        except ModuleNotFoundError as error:
+            needs = f"needs the library {error.name}: pip install 'magworm-gym[{extra}]'"
+            _add_missing(commands.add_parser(name, help=needs, prefix_chars="\0", add_help=False), needs)
     return parser
+
+
+def _add_missing(parser: argparse.ArgumentParser, needs: str) -> None:
+    """Makes a command say what it needs."""
+
+    def run(_: argparse.Namespace) -> NoReturn:
+        raise ImportError(needs)
+
+    parser.add_argument("words", nargs="*")
+    parser.set_defaults(run=run)

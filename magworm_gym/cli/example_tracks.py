@@ -33,7 +33,7 @@ def add_to(commands: Any) -> None:
     parser = commands.add_parser(
         "example-tracks", help="write tracks of a simulated robot, to try identify", description=DESCRIPTION
     )
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=run, mistake=ProblemError)
     parser.add_argument("file", type=Path, help="CSV file to write")
     parser.add_argument("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
     add_set(parser)

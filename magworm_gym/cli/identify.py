@@ -56,7 +56,7 @@ def add_to(commands: Any) -> None:
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=run, mistake=ProblemError)
     parser.add_argument("problem", nargs="?", type=Path, help="problem file (TOML)")
     parser.add_argument("--out", type=Path, required=True, help="folder for the results; new or empty")
     parser.add_argument("--resume", action="store_true", help="go on with what is in the folder")

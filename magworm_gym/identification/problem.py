@@ -9,6 +9,7 @@ from math import ceil
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from msgspec import Meta, field
 from msgspec.structs import asdict
 
@@ -25,6 +26,7 @@ from magworm_gym.identification.experiment_file import (
     read_comparison,
     read_experiment,
 )
+from magworm_gym.identification.filmed import Film
 from magworm_gym.identification.limit import threshold
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.parameters import Bounds, Parameter, ParameterSpace
@@ -291,6 +293,6 @@ def _fingerprint(entries: Mapping[str, Any], base: Scene, runs: list[Run], aims:
     for scene in (base, *(run.scene for run in runs)):
         digest.update(scene.to_toml().encode())
     for aim in aims:
-        digest.update(repr(aim).encode())
-        digest.update(getattr(aim, "points_m", b""))
+        if isinstance(aim, Film):
+            digest.update(np.column_stack([aim.time_s, aim.magnet, aim.points_m]).tobytes())
     return digest.hexdigest()

@@ -1,6 +1,6 @@
 """Fits one robot to all of the paper's curves, from blind starts, and judges what it was not fitted to.
 
-    python studies/identification/joint.py --out runs/joint --seeds 8
+    python -m studies.identification.joint --out runs/joint --seeds 8
 
 runs, for each problem, a search from a blind start for each seed, and for each group of claims a search
 without it; a run that was stopped goes on, one that is done is kept. From them it writes
@@ -14,7 +14,6 @@ without it; a run that was stopped goes on, one that is done is kept. From them 
 
 import argparse
 import json
-import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -24,17 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Scene
+from magworm_gym.documents import parse_toml
 from magworm_gym.identification import Problem, identify, read_problem, write_results
 from magworm_gym.identification.claims import Claim
 from magworm_gym.identification.ensemble import alike, coverage, farthest_first
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.identify import base_with
 from magworm_gym.identification.scene_file import commented_scene
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from studies.kit.page import page
 
 Floats = NDArray[np.float64]
 
@@ -84,6 +80,22 @@ class Search:
         """How many of these targets its best candidate meets."""
         return sum(each["met"] for each in self.report["targets"] if each["name"] in names)
 
+    def count(self, fitted: bool) -> str:
+        """How many of the targets, fitted or held out, its best candidate meets."""
+        met = [each["met"] for each in self.report["targets"] if each["fitted"] is fitted]
+        return f"{sum(met)} of {len(met)}"
+
+    @property
+    def targets(self) -> list[str]:
+        """Names of all targets."""
+        return [each["name"] for each in self.report["targets"]]
+
+    @property
+    def left_out(self) -> list[str]:
+        """Names of the claims of the group that was left out."""
+        claims = [aim for aim in self.problem.aims if isinstance(aim, Claim)]
+        return [claim.name for claim in claims if claim.group == self.without]
+
     def missed(self) -> list[str]:
         """Fitted targets that its best candidate misses."""
         return [each["name"] for each in self.report["targets"] if each["fitted"] and not each["met"]]
@@ -114,7 +126,7 @@ def main() -> None:
     write_ensemble(arguments.ensemble, blind, chosen)
     arguments.conditions.write_text(json.dumps(conditions(blind), indent=1) + "\n", encoding="utf-8")
     arguments.page.parent.mkdir(parents=True, exist_ok=True)
-    arguments.page.write_text(page(blind, crossed, chosen), encoding="utf-8")
+    arguments.page.write_text(report(blind, crossed, chosen), encoding="utf-8")
 
 
 def groups(problem: Problem) -> list[str]:
@@ -193,7 +205,7 @@ def write_ensemble(folder: Path, blind: list[Search], chosen: list[int | None]) 
 
 def robot(run: Search, place: int) -> Scene:
     """A candidate with the drive and the resets of the preset that its problem began with."""
-    preset = tomllib.loads(Scene.preset(run.problem.base_name).to_toml())
+    preset = parse_toml(Scene.preset(run.problem.base_name).to_toml(), "preset")
     scene, _ = base_with(run.problem.base, run.problem.space.scene_values(run.units[place]))
     return scene.with_values({"drive.motion": preset["drive"]["motion"], "reset": preset["reset"]})
 
@@ -211,98 +223,46 @@ def conditions(blind: list[Search]) -> dict[str, Any]:
     }
 
 
-def page(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -> str:
+def report(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -> str:
     """The page."""
-    parts = [
-        "# One robot for all figures of the paper",
-        *claims_section(blind),
-        *unmet_section(blind),
-        *crossed_section(crossed),
-        *ensemble_section(blind, chosen),
-    ]
-    return "\n".join(parts) + "\n"
-
-
-def claims_section(blind: list[Search]) -> list[str]:
-    """Which claims the best candidate of each run meets."""
+    labels, pools = shared(blind), [pool(run, limit(blind), shared(blind)) for run in blind]
+    together = np.vstack(pools)
+    low, high = together.min(axis=0), together.max(axis=0)
+    robots = np.array([points[at] for points, at in zip(pools, chosen, strict=True) if at is not None])
     best = min(blind, key=lambda run: run.loss)
-    rows = ["", "## Blind starts", "", "| run | loss | candidates | fitted, met | held out, met |"]
-    rows.append("|---|---|---|---|---|")
-    for run in sorted(blind, key=lambda run: run.loss):
-        targets = run.report["targets"]
-        cells = [sum(t["met"] for t in targets if t["fitted"] is fitted) for fitted in (True, False)]
-        counts = [sum(t["fitted"] is fitted for t in targets) for fitted in (True, False)]
-        rows.append(
-            f"| {run.name} | {run.loss:.4g} | {len(run.losses)} | {cells[0]} of {counts[0]} | "
-            f"{cells[1]} of {counts[1]} |"
-        )
-    rows += ["", f"Targets of the best, {best.name}, those that it misses first:", ""]
-    rows += ["| target | fitted | wanted | model | met | met by |", "|---|---|---|---|---|---|"]
-    for target in sorted(best.report["targets"], key=lambda target: target["met"]):
-        model = "–" if target["model"] is None else f"{target['model']:.4g}"
-        count = sum(run.met([target["name"]]) for run in blind)
-        rows.append(
-            f"| {target['name']} | {'yes' if target['fitted'] else 'no'} | {target['target']} | {model} | "
-            f"{'yes' if target['met'] else '**no**'} | {count} of {len(blind)} |"
-        )
-    return rows
+    pairs = alike(robots, APART * (high - low), PLACES)
+    return page(
+        HERE / "joint.md.j2",
+        blind=blind,
+        best=best,
+        met_by={name: sum(run.met([name]) for run in blind) for name in best.targets},
+        unmet=unmet(blind, best),
+        crossed=crossed,
+        robots=len(robots),
+        limit=limit(blind),
+        intervals=list(zip(labels, low, high, coverage(robots, low, high), strict=True)),
+        covered=COVERED,
+        apart=APART,
+        places=PLACES,
+        pairs=", ".join(f"{i + 1} and {j + 1}" for i, j in pairs),
+    )
 
 
-def unmet_section(blind: list[Search]) -> list[str]:
-    """What each claim that the best run leaves unmet would cost, by the best candidate that meets it."""
-    best = min(blind, key=lambda run: run.loss)
-    count = sum(len(run.losses) for run in blind)
-    rows = ["", "## What stays unmet", "", f"Candidates of all blind starts: {count}.", ""]
-    rows += ["| claim | best candidate that meets it | its loss | it misses |", "|---|---|---|---|"]
-    for target in best.report["targets"]:
-        if target["met"] or not target["fitted"]:
-            continue
+def unmet(blind: list[Search], best: Search) -> list[tuple[str, str, float, str]]:
+    """What the best run misses, the best candidate that meets it, its loss, and what that one misses."""
+    rows = []
+    for name in best.missed():
         meeting = [
             (float(each["loss"]), run.name, ", ".join(each["missed"]) or "nothing")
             for run in blind
             for each in run.report["alternatives"]
-            if each["target"] == target["name"] and each["values"] is not None
+            if each["target"] == name and each["values"] is not None
         ]
         meeting += [
-            (run.loss, run.name, ", ".join(run.missed()) or "nothing")
-            for run in blind
-            if run.met([target["name"]])
+            (run.loss, run.name, ", ".join(run.missed()) or "nothing") for run in blind if run.met([name])
         ]
-        loss, name, missed = min(meeting, default=(np.inf, "none", "–"))
-        rows.append(f"| {target['name']} | {name} | {loss:.4g} | {missed} |")
-    return rows
-
-
-def crossed_section(crossed: list[Search]) -> list[str]:
-    """How well each group of claims is met by robots that were not fitted to it."""
-    rows = ["", "## Cross-validation", "", "| left out | run | loss of the rest | met of the group |"]
-    rows.append("|---|---|---|---|")
-    for run in crossed:
-        claims = [aim for aim in run.problem.aims if isinstance(aim, Claim)]
-        names = [claim.name for claim in claims if claim.group == run.without]
-        rows.append(f"| {run.without} | {run.name} | {run.loss:.4g} | {run.met(names)} of {len(names)} |")
-    return rows
-
-
-def ensemble_section(blind: list[Search], chosen: list[int | None]) -> list[str]:
-    """The intervals of the parameters and how much of them the ensemble reaches over."""
-    labels = shared(blind)
-    pools = [pool(run, limit(blind), labels) for run in blind]
-    together = np.vstack(pools)
-    low, high = together.min(axis=0), together.max(axis=0)
-    robots = np.array([p[k] for p, k in zip(pools, chosen, strict=True) if k is not None])
-    reached = coverage(robots, low, high)
-    rows = ["", "## Ensemble", "", f"Robots: {len(robots)}, from as many blind starts.", ""]
-    rows += [
-        f"| parameter | loss of at most {limit(blind):.3g} | the ensemble reaches over |",
-        "|---|---|---|",
-    ]
-    for at, label in enumerate(labels):
-        share = f"{100.0 * reached[at]:.0f} %{'' if reached[at] >= COVERED else ', too little'}"
-        rows.append(f"| `{label}` | {low[at]:.4g} to {high[at]:.4g} | {share} |")
-    pairs = alike(robots, APART * (high - low), PLACES)
-    said = ", ".join(f"{i + 1} and {j + 1}" for i, j in pairs) or "none"
-    rows += ["", f"Pairs that differ by {APART:g} of that in fewer than {PLACES} parameters: {said}."]
+        loss, run_name, missed = min(meeting, default=(np.inf, "none", "–"))
+        rows.append((name, run_name, loss, missed))
     return rows
 
 

@@ -1,7 +1,7 @@
 """Says which claims of a problem robots meet that are given as scenes.
 
-python studies/identification/judge.py studies/identification/paper-joint.toml runs/joint/scene.toml
-python studies/identification/judge.py ... --set solver.step_s 0.0005 --set body.elements_per_bridge 8
+python -m studies.identification.judge studies/identification/paper-joint.toml runs/joint/scene.toml
+python -m studies.identification.judge ... --set solver.step_s 0.0005 --set body.elements_per_bridge 8
 """
 
 import argparse

@@ -7,7 +7,7 @@ fit about as well as the best, spread as far as they reach, measures them again 
 with all of them together, the one with the least loss.
 
     magworm identify studies/identification/paper-3-simulation.toml --out runs/identify/paper-3-simulation
-    python studies/identification/settle_presets.py paper-3-simulation
+    python -m studies.identification.settle_presets paper-3-simulation
 
 The report of the run goes to docs/identification/. ``make identify`` does all of it for all presets.
 """
