@@ -252,3 +252,13 @@ def test_the_problem_of_the_documentation_can_be_read(tmp_path):
     assert len(problem.aims) == 5
     documented = text.split("| quantity | what |")[1].split("\n\n")[0]
     assert all(f"| `{kind}` | {meaning} |" in documented for kind, (_, meaning) in MEASURES.items())
+
+
+def test_commands_without_their_extra_say_which_and_leave_the_others_alone(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "magworm_gym.cli.identify", None)
+    monkeypatch.delattr("magworm_gym.cli.identify")
+    code, said = command(capsys, "identify", "--out", "x", "--drive-x", "-5e-2")
+    assert code == 2
+    assert said.err.startswith("magworm identify: needs the library ")
+    assert said.err.endswith("pip install 'magworm-gym[identify]'\n") and said.err.count("\n") == 1
+    assert command(capsys, "policies")[0] == 0

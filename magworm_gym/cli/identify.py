@@ -3,6 +3,7 @@
 import argparse
 import shlex
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.problem import Problem, make_problem
 from magworm_gym.identification.problem_file import read_problem
 from magworm_gym.identification.report import write_results
+from magworm_gym.identification.settings import SearchSettings
 
 DESCRIPTION = """\
 Fits parameters of a scene to measured numbers (lift, stride, ...) and to tracks of a film (DeepLabCut)
@@ -31,19 +33,28 @@ The folder gets scene.toml (the fitted scene), report.md, report.json and candid
 the same command with --resume goes on and ends with the same result. See docs/identify.md.
 """
 
-SEARCH_FLAGS = ("restarts", "population", "generations", "scatter", "rounds", "seed")
-CAMERA_FLAGS = (
-    "metres_per_pixel",
-    "frames_per_second",
-    "magnets",
-    "individual",
-    "start_s",
-    "head",
-    "y_axis",
-    "angle_deg",
-    "least_likelihood",
-    "tolerance_m",
-)
+SEARCH_FLAGS = {
+    "restarts": "evolutions",
+    "population": "candidates of each in a generation",
+    "generations": "most generations",
+    "scatter": "candidates spread over the bounds first",
+    "rounds": "rounds that explore what fits as well",
+    "seed": "seed of everything random",
+}
+FILM_FLAGS: dict[str, dict[str, Any]] = {
+    "metres_per_pixel": {"type": float, "metavar": "M", "help": "scale of the film [m/px]"},
+    "frames_per_second": {"type": float, "metavar": "N", "help": "frame rate [1/s]"},
+    "magnets": {"nargs": "+", "metavar": "PART", "help": "part of each magnet from the head; '' for none"},
+    "individual": {"metavar": "NAME", "help": "which animal, where the tracks are of several"},
+    "start_s": {"type": float, "metavar": "S", "help": "time in the film when the run begins (0)"},
+    "head": {"choices": ("left", "right"), "help": "side the head points to (left)"},
+    "y_axis": {"choices": ("down", "up"), "help": "direction of growing y of pixels (down)"},
+    "angle_deg": {"type": float, "metavar": "DEG", "help": "how much the ground rises rightwards (0)"},
+    "least_likelihood": {"type": float, "metavar": "P", "help": "points below are left out (0.6)"},
+    "tolerance_m": {"type": float, "metavar": "M", "help": "tracking and model may be off (1.5 px)"},
+}
+"""Entries of the table ``tracks`` → their flags."""
+
 NEEDED_FLAGS = ("scene", "metres_per_pixel", "frames_per_second", "magnets", "fit")
 
 
@@ -57,27 +68,31 @@ def add_to(commands: Any) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.set_defaults(run=run, mistake=ProblemError)
-    parser.add_argument("problem", nargs="?", type=Path, help="problem file (TOML)")
-    parser.add_argument("--out", type=Path, required=True, help="folder for the results; new or empty")
-    parser.add_argument("--resume", action="store_true", help="go on with what is in the folder")
-    parser.add_argument(
-        "--threads", type=_positive, help="threads (default: all cores); no effect on results"
-    )
-    parser.add_argument(
-        "--without",
-        nargs="+",
-        default=[],
-        metavar="GROUP",
-        help="groups of claims of the problem file that are not fitted, only reported",
-    )
-    parser.add_argument(
-        "--blind", action="store_true", help="try neither the scene nor the problem file's starts first"
-    )
+    add = parser.add_argument
+    add("problem", nargs="?", type=Path, help="problem file (TOML)")
+    add("--out", type=Path, required=True, help="folder for the results; new or empty")
+    add("--resume", action="store_true", help="go on with what is in the folder")
+    add("--threads", type=_positive, help="threads (default: all cores); no effect on results")
+    add("--without", nargs="+", default=[], metavar="GROUP", help="groups of claims that are only reported")
+    add("--blind", action="store_true", help="try neither the scene nor the problem file's starts first")
+    add("--quiet", action="store_true", help="no progress bar and no summary")
     add_set(parser)
-    parser.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
-    _add_search(parser.add_argument_group("search (replaces what the problem file says)"))
-    _add_film(parser.add_argument_group("one film in place of a problem file"))
-    _add_drive(parser.add_argument_group("motion of the drive during the film"))
+    search = parser.add_argument_group("search (replaces what the problem file says)").add_argument
+    for name, text in SEARCH_FLAGS.items():
+        search(f"--{name}", type=int, metavar="N", help=f"{text} ({getattr(SearchSettings(), name)})")
+    film = parser.add_argument_group("one film in place of a problem file").add_argument
+    film("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
+    film("--tracks", metavar="FILE", help="tracks of DeepLabCut, CSV or HDF5")
+    for name, options in FILM_FLAGS.items():
+        film(f"--{name.replace('_', '-')}", **options)
+    film("--origin", nargs="+", metavar="PX", help="whole (default), start, or the scene's origin, X Y")
+    film("--duration-s", type=float, metavar="S", help="how long it is compared (to its end)")
+    fit = "a number of the scene to fit, and its bounds; may be repeated"
+    film("--fit", nargs=3, action="append", metavar=("PATH", "LOW", "HIGH"), help=fit)
+    drive = parser.add_argument_group("motion of the drive during the film")
+    add_constant_drive(drive, None, None)
+    drive.add_argument("--drive-file", metavar="CSV", help="its motion: columns time_s,x_m,y_m")
+    drive.add_argument("--drive-part", metavar="PART", help="body part of the tracks that is the drive")
 
 
 def _positive(text: str) -> int:
@@ -85,58 +100,6 @@ def _positive(text: str) -> int:
     if number < 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
     return number
-
-
-def _add_search(group: Any) -> None:
-    group.add_argument("--restarts", type=int, metavar="N", help="evolutions (default 5)")
-    group.add_argument("--population", type=int, metavar="N", help="candidates of each in a generation (32)")
-    group.add_argument("--generations", type=int, metavar="N", help="most generations (100)")
-    group.add_argument(
-        "--scatter", type=int, metavar="N", help="candidates spread over the bounds first (256)"
-    )
-    group.add_argument("--rounds", type=int, metavar="N", help="rounds that explore what fits as well (30)")
-    group.add_argument("--seed", type=int, metavar="N", help="seed of everything random (0)")
-
-
-def _add_film(group: Any) -> None:
-    group.add_argument("--scene", default="paper-3", help="preset or TOML file (default %(default)s)")
-    group.add_argument("--tracks", metavar="FILE", help="tracks of DeepLabCut, CSV or HDF5")
-    group.add_argument("--individual", metavar="NAME", help="which animal, where the tracks are of several")
-    group.add_argument("--metres-per-pixel", type=float, metavar="M", help="scale of the film [m/px]")
-    group.add_argument("--frames-per-second", type=float, metavar="N", help="frame rate [1/s]")
-    group.add_argument(
-        "--magnets", nargs="+", metavar="PART", help="body part of each magnet from the head; '' for none"
-    )
-    group.add_argument(
-        "--fit",
-        nargs=3,
-        action="append",
-        metavar=("PATH", "LOW", "HIGH"),
-        help="a number of the scene to fit, and its bounds; may be repeated",
-    )
-    group.add_argument("--start-s", type=float, metavar="S", help="time in the film when the run begins (0)")
-    group.add_argument("--duration-s", type=float, metavar="S", help="how long it is compared (to its end)")
-    group.add_argument("--head", choices=("left", "right"), help="side the head points to (left)")
-    group.add_argument("--y-axis", choices=("down", "up"), help="direction of growing y of pixels (down)")
-    group.add_argument(
-        "--angle-deg", type=float, metavar="DEG", help="how much the ground rises rightwards (0)"
-    )
-    group.add_argument(
-        "--origin",
-        nargs="+",
-        metavar="PX",
-        help="'whole' (default), 'start', or pixel X Y of the scene's origin",
-    )
-    group.add_argument("--least-likelihood", type=float, metavar="P", help="points below are left out (0.6)")
-    group.add_argument(
-        "--tolerance-m", type=float, metavar="M", help="tracking and model may be off (1.5 px)"
-    )
-
-
-def _add_drive(group: Any) -> None:
-    add_constant_drive(group, None, None)
-    group.add_argument("--drive-file", metavar="CSV", help="its motion: columns time_s,x_m,y_m")
-    group.add_argument("--drive-part", metavar="PART", help="body part of the tracks that is the drive")
 
 
 def run(parsed: argparse.Namespace) -> None:
@@ -155,7 +118,7 @@ def run(parsed: argparse.Namespace) -> None:
 
 
 def _identify(parsed: argparse.Namespace) -> None:
-    search = {name: value for name in SEARCH_FLAGS if (value := getattr(parsed, name)) is not None}
+    search = _given(parsed, SEARCH_FLAGS)
     if parsed.blind:
         search["blind"] = True
     problem = _problem(parsed, search)
@@ -183,14 +146,8 @@ def _problem(parsed: argparse.Namespace, search: dict[str, Any]) -> Problem:
 
 def _entries(parsed: argparse.Namespace, search: dict[str, Any]) -> dict[str, Any]:
     """What a problem file would hold."""
-    tracks = {name: value for name in CAMERA_FLAGS if (value := getattr(parsed, name)) is not None}
-    experiment = {
-        "name": "film",
-        "tracks": {"file": parsed.tracks, **tracks, **_origin(parsed)},
-        **_drive(parsed),
-    }
-    if parsed.duration_s is not None:
-        experiment["duration_s"] = parsed.duration_s
+    tracks = {"file": parsed.tracks, **_given(parsed, FILM_FLAGS), **_origin(parsed)}
+    experiment = {"name": "film", "tracks": tracks, **_given(parsed, ["duration_s"]), **_drive(parsed)}
     return {
         "scene": parsed.scene,
         "values": set_values(parsed.set),
@@ -198,6 +155,11 @@ def _entries(parsed: argparse.Namespace, search: dict[str, Any]) -> dict[str, An
         "experiment": [experiment],
         "search": search,
     }
+
+
+def _given(parsed: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """Flags that were given."""
+    return {name: value for name in names if (value := getattr(parsed, name)) is not None}
 
 
 def _origin(parsed: argparse.Namespace) -> dict[str, Any]:
