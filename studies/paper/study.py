@@ -34,8 +34,9 @@ EXPERIMENTS: dict[str, type[Experiment]] = {
 def options(parser: argparse.ArgumentParser) -> None:
     """Which experiments, or none but new bands."""
     names = ", ".join(EXPERIMENTS)
-    parser.add_argument("--only", nargs="+", choices=EXPERIMENTS, metavar="NAME", help=names)
-    parser.add_argument("--write-bands", action="store_true", help="measure nothing, make new bands")
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument("--only", nargs="+", choices=EXPERIMENTS, metavar="NAME", help=names)
+    either.add_argument("--write-bands", action="store_true", help="measure nothing, make new bands")
 
 
 def measure(arguments: argparse.Namespace) -> None:

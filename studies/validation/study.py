@@ -5,10 +5,11 @@ import os
 import shlex
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from studies.kit.study import ROOT, Study
-from studies.validation.cases import DATA, read_cases, read_sections
+from studies.validation.cases import DATA, Case, Section, read_cases, read_sections
 from studies.validation.page import COMMAND, validation_page
 from studies.validation.plots import drawn
 
@@ -41,9 +42,13 @@ def figures() -> dict[str, Any]:
 
 
 def complaints() -> list[str]:
-    """Cases that are missing or not on the page, and figures outside of their bands."""
-    cases = read_cases()
-    names = [name for section in read_sections() for name in section.cases]
+    """What is wrong, one sentence each."""
+    return complaints_of(read_cases(), read_sections())
+
+
+def complaints_of(cases: Mapping[str, Case], sections: Sequence[Section]) -> list[str]:
+    """Cases that are missing or not on the page, and numbers outside of their bands."""
+    names = [name for section in sections for name in section.cases]
     found = [f"{name} is missing, its test did not come to its end" for name in names if name not in cases]
     found += [f"{name} is not in studies/validation/contents.toml" for name in cases if name not in names]
     for case in cases.values():
