@@ -29,6 +29,7 @@ class Randomise:
 
     What is drawn depends on the seed of the environment and the number of its episode alone: it is the same
     in any batch, at any place. Magnets and parameters that an option of a reset names are not drawn.
+    Of an ensemble of scenes (a list as ``scene``) each environment keeps its own, and draws within it.
 
     Attributes:
         parameters: Width w of the draw about 1, from 0 to below 1: the scene's stiffness, damping, mass,

@@ -11,9 +11,9 @@ from gymnasium.utils.env_checker import data_equivalence
 
 from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv, Randomise, Scene
 from magworm_gym.randomise import VARIED
+from magworm_gym.testing import check_vector_env
 
 BOTH = Randomise(parameters=0.2, removed=0.5)
-NO_ACTION = np.zeros((1, 3))
 
 
 def crawl(num_envs: int = 6, **kwargs: Any) -> MagWormVectorEnv:
@@ -155,6 +155,10 @@ def test_scenes_of_an_ensemble_draw_too() -> None:
     alone.reset(seed=4)
     assert data_equivalence(robots(alone)[0], robots(env)[4], exact=True)
     np.testing.assert_array_equal(alone.batch.observe()[0], env.batch.observe()[4])
+
+
+def test_the_checker_passes() -> None:
+    assert check_vector_env(lambda num_envs=3: crawl(num_envs), strict=True).passed
 
 
 def test_gymnasium_makes_them() -> None:
