@@ -13,12 +13,14 @@ from studies.kit.passes import (
     MM,
     PLANE_M,
     RISE_S,
+    ROBOT,
     SIMULATION,
     Floats,
     middle_lift,
     robot,
     under_middle,
 )
+from studies.kit.words import number
 from studies.paper.experiment import Experiment, Numbers
 from studies.paper.marks import mark_paper
 from studies.paper.robot_picture import draw_scene, moments
@@ -64,14 +66,11 @@ class Lift(Experiment):
     @classmethod
     def measured(cls) -> "Lift":
         """Runs the case with both robots, and the sweeps."""
-        raised = [0.0, RISE_S]
-        scenes = [case(), under_middle(robot(3), raised, [LOW_M, PLANE_M])]
-        held = [under_middle(robot(3, SIMULATION), raised, [LOW_M, height]) for height in HEIGHTS_M]
+        held = [raised(SIMULATION, height) for height in HEIGHTS_M]
         slow = under_middle(robot(3, SIMULATION), [0.0, SLOW_S, 2.0 * SLOW_S], [LOW_M, PLANE_M, LOW_M])
-        record, other = record_scenes(scenes, RISE_S + HOLD_S, SAMPLE_S)
-        *settled, both_ways = record_scenes(
-            [*held, slow], [RISE_S + REST_S] * len(held) + [2.0 * SLOW_S], SLOW_SAMPLE_S, nodes=False
-        )
+        record, other = record_scenes([raised(SIMULATION), raised(ROBOT)], RISE_S + HOLD_S, SAMPLE_S)
+        settled = record_scenes(held, RISE_S + REST_S, SLOW_SAMPLE_S, nodes=False)
+        (both_ways,) = record_scenes([slow], 2.0 * SLOW_S, SLOW_SAMPLE_S, nodes=False)
         ends = record.nodes[:, [0, -1], 0].T
         return cls(
             time_s=record.time_s,
@@ -121,11 +120,11 @@ class Lift(Experiment):
 
     def _postures(self) -> Any:
         figure, axes = panels(1, len(SHOWN_S), (9.2, 2.3), sharex=True, sharey=True)
-        scene = case()
+        scene = raised(SIMULATION)
         for sample, (axis, time_s) in enumerate(zip(axes, SHOWN_S, strict=True)):
             draw_scene(axis, scene, self.postures, sample)
             height = MM * self.postures.drive_positions[sample, 0, 1]
-            axis.set_title(f"{time_s:g} s, drive at −{-height:.0f} mm", fontsize=9)
+            axis.set_title(f"{time_s:g} s, drive at {number(height, 0)} mm", fontsize=9)
             axis.set(xlim=(-10.0, 64.0), ylim=(-56.0, 20.0), xlabel="x [mm]")
         axes[0].set_ylabel("y [mm]")
         return figure
@@ -151,9 +150,9 @@ class Lift(Experiment):
         return figure
 
 
-def case() -> Scene:
-    """The case with the robot of the paper's simulation."""
-    return under_middle(robot(3, SIMULATION), [0.0, RISE_S], [LOW_M, PLANE_M])
+def raised(family: str, height_m: float = PLANE_M) -> Scene:
+    """A robot with three magnets over a drive that rises to a height, in the case to its plane."""
+    return under_middle(robot(3, family), [0.0, RISE_S], [LOW_M, height_m])
 
 
 def _halves(values: Floats) -> Floats:

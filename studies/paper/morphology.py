@@ -46,7 +46,7 @@ class Morphology(Experiment):
 
     Attributes:
         found: What its statements are about, by name.
-        until_s: When each stage ends [s].
+        until_s: When each stage ends [s], by name.
         tilt_deg: By how much each foot tilts at most [°].
         flight_mm: Greatest height of the robot's lowest edge [mm].
         pictures: Two instants of each stage.
@@ -54,7 +54,7 @@ class Morphology(Experiment):
 
     name: ClassVar[str] = "morphology"
     found: dict[str, float]
-    until_s: list[float]
+    until_s: dict[str, float]
     tilt_deg: Floats
     flight_mm: float
     pictures: Recording
@@ -63,6 +63,7 @@ class Morphology(Experiment):
     def measured(cls) -> "Morphology":
         """Records the pass."""
         walk = recorded_pass(scene())
+        ends = walk.record.time_s.tolist()
         shown = [
             span.start + round(share * (span.stop - 1 - span.start))
             for span, shares in zip(walk.stages, PICTURES, strict=True)
@@ -70,7 +71,7 @@ class Morphology(Experiment):
         ]
         return cls(
             found=_stage_one(walk) | _stage_two(walk) | _stage_three(walk) | _stage_four(walk),
-            until_s=[float(walk.record.time_s[span.stop - 1]) for span in walk.stages],
+            until_s={name: ends[span.stop - 1] for name, span in zip(NAMES, walk.stages, strict=True)},
             tilt_deg=np.degrees(np.abs(walk.record.magnet_poses[..., 2]).max(axis=0)),
             flight_mm=MM * float(walk.soles.min(axis=(1, 2)).max()),
             pictures=moments(walk.record, shown),
@@ -80,11 +81,6 @@ class Morphology(Experiment):
     def flies(self) -> bool:
         """Whether the whole robot leaves the ground."""
         return self.flight_mm > MM * OFF_GROUND_M
-
-    @property
-    def stages(self) -> list[str]:
-        """Names of the stages."""
-        return list(NAMES)
 
     @property
     def statements(self) -> list[Quantity]:
