@@ -55,7 +55,8 @@ study-error: install-test  ## error against run time: docs/performance.md; minut
 	$(VENV_PYTHON) -m studies render error
 
 study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes
-	$(VENV_PYTHON) -m studies.growth
+	$(VENV_PYTHON) -m studies measure growth
+	$(VENV_PYTHON) -m studies render growth
 
 study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
 	$(VENV_PYTHON) -m studies measure needs

@@ -7,7 +7,8 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from magworm_gym import Batch
-from studies.growth.measure import setting, started
+from studies.growth.measure import started
+from studies.growth.sweeps import Setting
 
 FEW, MANY = 1024, 65536
 RESIDENT = Path("/proc/self/statm")
@@ -18,30 +19,32 @@ class Memory:
     """Bytes of an environment.
 
     Attributes:
+        dimensions: 2 or 3.
         resident: Growth of the resident set; None where the system does not tell it in ``/proc``.
         state: What changes in time and is saved; the rest is the workspace of a step.
     """
 
+    dimensions: int
     resident: float | None
     state: float
 
 
-def memory(space: bool) -> Memory:
+def memory(dimensions: int) -> Memory:
     """Measured in fresh processes, so that no memory is used a second time."""
-    few, many = (Batch(setting(space).scene, count) for count in (1, 2))
+    few, many = (Batch(Setting().scene(dimensions), count) for count in (1, 2))
     state = len(many.get_state()) - len(few.get_state())
     if not RESIDENT.exists():
-        return Memory(None, state)
+        return Memory(dimensions, None, state)
     sizes = []
     for count in (FEW, MANY):
         with ProcessPoolExecutor(1, get_context("spawn")) as process:
-            sizes.append(process.submit(_resident_bytes, space, count).result())
-    return Memory((sizes[1] - sizes[0]) / (MANY - FEW), state)
+            sizes.append(process.submit(_resident_bytes, dimensions, count).result())
+    return Memory(dimensions, (sizes[1] - sizes[0]) / (MANY - FEW), state)
 
 
-def _resident_bytes(space: bool, count: int) -> int:
+def _resident_bytes(dimensions: int, count: int) -> int:
     before = _resident()
-    batch = started(setting(space, environments=count))
+    batch = started(Setting(environments=count), dimensions)
     batch.advance(batch.scene.control_step_s)
     return _resident() - before
 

@@ -1,10 +1,13 @@
-"""What is varied, one thing at a time."""
+"""What is varied, one thing at a time, and the exponents of growth along it."""
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
-from studies.growth.measure import Setting, setting
+import numpy as np
+
+from magworm_gym import Scene, SceneError
 
 ENVIRONMENTS = (1, 4, 16, 64, 256, 1024, 4096, 16384, 65536)
 THREADS = tuple(sorted({1, 2, os.cpu_count() or 1}))
@@ -18,12 +21,27 @@ NODES_OF_FEET = 10
 """Nodes of three feet, so that two bridges make up the rest."""
 FINE = {"body.pitch_m": 0.022}
 """Feet further apart than the presets', whose bridges are too short for as many elements."""
-BEYOND = (
-    {**FINE, "body.elements_per_bridge": (max(NODES) - NODES_OF_FEET) // 2 + 1},
-    {"body.magnets": max(MAGNETS) + 1},
-    {"drive.arrangement": {"kind": "belt", "pitch_m": PITCH_M, "count": max(DRIVES) + 1}},
-)
-"""The first scene beyond the range of nodes, magnets and drive magnets."""
+PRESETS = {2: "paper-3", 3: "turn-3"}
+"""By dimensions."""
+FEWEST_POINTS = 4
+"""Of a fit; with two unknowns two are left to judge it by."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is simulated: a preset with fields of its scene replaced, on threads; none for all cores."""
+
+    edits: Mapping[str, Any] = field(default_factory=dict)
+    environments: int = 64
+    threads: int | None = 1
+
+    def scene(self, dimensions: int) -> Scene:
+        """In the plane or in space.
+
+        Raises:
+            SceneError: The scene cannot be simulated.
+        """
+        return Scene.preset(PRESETS[dimensions]).with_values(dict(self.edits))
 
 
 @dataclass(frozen=True)
@@ -33,59 +51,81 @@ class Sweep:
     Attributes:
         name: Column of the data.
         title: What it is called on the page.
-        held: What is held, for the page.
-        settings: The settings in the plane and in space.
+        sizes: Rising.
+        setting: What a size stands for.
     """
 
     name: str
     title: str
-    held: str
-    settings: Callable[[bool], list[Setting]]
+    sizes: Sequence[int]
+    setting: Callable[[int], Setting]
 
-    def size(self, setting: Setting) -> int:
-        """The number that is varied."""
-        return int(getattr(setting, self.name))
+
+def nodes(count: int) -> Setting:
+    """A body with so many nodes."""
+    return Setting({**FINE, "body.elements_per_bridge": (count - NODES_OF_FEET) // 2})
+
+
+def magnets(count: int) -> Setting:
+    """A body with so many magnets."""
+    return Setting({"body.magnets": count})
+
+
+def drives(count: int) -> Setting:
+    """So many drive magnets in a row."""
+    return Setting({"drive.arrangement": {"kind": "belt", "pitch_m": PITCH_M, "count": count}})
 
 
 SWEEPS = (
-    Sweep(
-        "environments",
-        "environments",
-        "three magnets, one drive magnet, all cores",
-        lambda space: [setting(space, environments=count, threads=None) for count in ENVIRONMENTS],
-    ),
-    Sweep(
-        "threads",
-        "threads",
-        "4,096 environments, three magnets, one drive magnet",
-        lambda space: [setting(space, environments=4096, threads=count) for count in THREADS],
-    ),
-    Sweep(
-        "nodes",
-        "nodes of a body",
-        "64 environments on one thread, three magnets 22 mm apart, one drive magnet",
-        lambda space: [
-            setting(space, {**FINE, "body.elements_per_bridge": (count - NODES_OF_FEET) // 2})
-            for count in NODES
-        ],
-    ),
-    Sweep(
-        "magnets",
-        "magnets of a body",
-        "64 environments on one thread, seven nodes a magnet, one drive magnet",
-        lambda space: [setting(space, {"body.magnets": count}) for count in MAGNETS],
-    ),
-    Sweep(
-        "drives",
-        "drive magnets",
-        "64 environments on one thread, three magnets, drive magnets in a row 50 mm apart",
-        lambda space: [
-            setting(
-                space,
-                {"drive.arrangement": {"kind": "belt", "pitch_m": PITCH_M, "count": count}},
-                drives=count,
-            )
-            for count in DRIVES
-        ],
-    ),
+    Sweep("environments", "environments", ENVIRONMENTS, lambda count: Setting({}, count, None)),
+    Sweep("threads", "threads", THREADS, lambda count: Setting({}, 4096, count)),
+    Sweep("nodes", "nodes of a body", NODES, nodes),
+    Sweep("magnets", "magnets of a body", MAGNETS, magnets),
+    Sweep("drive_magnets", "drive magnets", DRIVES, drives),
 )
+BEYOND = (nodes(max(NODES) + 2), magnets(max(MAGNETS) + 1), drives(max(DRIVES) + 1))
+"""The first setting beyond the range of nodes, magnets and drive magnets."""
+
+
+def refusals() -> list[str]:
+    """What the simulator says to the first scene beyond each range."""
+    sentences = []
+    for setting in BEYOND:
+        try:
+            setting.scene(2)
+        except SceneError as refusal:
+            sentences.append(str(refusal))
+    return sentences
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """Cost ∝ size to this power, over the upper part of a sweep.
+
+    Attributes:
+        value: The power.
+        error: Its standard error.
+        least: Smallest size in the fit.
+    """
+
+    value: float
+    error: float
+    least: int
+
+
+def exponent(sizes: Sequence[int], costs: Sequence[float]) -> Exponent | None:
+    """Least squares on logarithms over the upper half of the sizes; None where there are too few.
+
+    Args:
+        sizes: Rising.
+        costs: Above zero.
+    """
+    points = max(FEWEST_POINTS, (len(sizes) + 1) // 2)
+    if len(sizes) < points:
+        return None
+    x, y = np.log(sizes[-points:]), np.log(costs[-points:])
+    away = x - x.mean()
+    slope = float(away @ y / (away @ away))
+    residual = y - y.mean() - slope * away
+    error = float(np.sqrt(residual @ residual / (points - 2) / (away @ away)))
+    return Exponent(slope, error, sizes[-points])

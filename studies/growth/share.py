@@ -2,18 +2,14 @@
 
 Trains a few rollouts of Stable-Baselines3's PPO with 256 environments and the settings of
 ``training/configs/ppo.toml``, through the adapter :mod:`magworm_gym.sb3`; the time in the environment's steps
-is taken apart. The ceiling is an environment with the same spaces that does nothing. Half a minute.
-
-    python -m studies.ppo_share
+is taken apart. The ceiling is an environment with the same spaces that does nothing.
 """
 
-import argparse
-import sys
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import torch
 from numpy.typing import NDArray
@@ -24,13 +20,9 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 from magworm_gym import Batch, Scene
 from magworm_gym.sb3 import MagWormSB3VecEnv
 from magworm_gym.tasks import TaskName
+from studies.kit.study import ROOT
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-SETTINGS = Path(__file__).parent.parent / "training" / "configs" / "ppo.toml"
+SETTINGS = ROOT / "training" / "configs" / "ppo.toml"
 ENVIRONMENTS = 256
 ROLLOUTS = 6
 AIM = 0.1
@@ -85,25 +77,23 @@ class Replayed:
 class Case:
     """A task, the solver's step [ms] and precision."""
 
-    title: str
     task: TaskName
-    scene: str
     step_ms: float
     precision: str = "double"
 
     @property
-    def simulated(self) -> Scene:
-        """The scene with them."""
+    def scene(self) -> Scene:
+        """The preset of the task with them."""
         values = {"solver.step_s": self.step_ms / 1e3, "solver.precision": self.precision}
-        return Scene.preset(self.scene).with_values(values)
+        return Scene.preset({"crawl": "paper-3", "turn": "turn-3"}[self.task]).with_values(values)
 
 
 CASES = (
-    Case("Crawl-v0", "crawl", "paper-3", 2.0),
-    Case("Crawl-v0", "crawl", "paper-3", 5.0),
-    Case("Crawl-v0", "crawl", "paper-3", 5.0, "single"),
-    Case("Turn-v0", "turn", "turn-3", 2.0),
-    Case("Turn-v0", "turn", "turn-3", 2.0, "single"),
+    Case("crawl", 2.0),
+    Case("crawl", 5.0),
+    Case("crawl", 5.0, "single"),
+    Case("turn", 2.0),
+    Case("turn", 2.0, "single"),
 )
 
 
@@ -138,10 +128,10 @@ def share(case: Case) -> Share:
 
 def _trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
     """Environment steps, wall time and the part of it within steps [s], after a rollout to warm up."""
-    settings: dict[str, Any] = tomllib.loads(SETTINGS.read_text("utf-8"))
+    settings: dict[str, Any] = msgspec.toml.decode(SETTINGS.read_bytes())
     torch.set_num_threads(1)  # the network is small: a second thread waits more than it computes
     set_random_seed(0)
-    environments = kind(ENVIRONMENTS, case.simulated, settings["run"]["episode_steps"], task=case.task)
+    environments = kind(ENVIRONMENTS, case.scene, settings["run"]["episode_steps"], task=case.task)
     environments.seed(0)
     algorithm = settings["algorithm"]
     normalised: VecEnv = VecNormalize(environments, gamma=algorithm["gamma"])
@@ -156,7 +146,7 @@ def _trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
 
 def _around(case: Case) -> float:
     """Median time of a step in which no episode ends, less that of the simulator [s]."""
-    environments = Timed(ENVIRONMENTS, case.simulated, task=case.task)
+    environments = Timed(ENVIRONMENTS, case.scene, task=case.task)
     environments.reset()
     environments.worms._worlds.batch = Replayed(environments.worms.batch)  # type: ignore[assignment]
     actions = np.zeros_like(environments.worms.action_space.sample())
@@ -166,48 +156,3 @@ def _around(case: Case) -> float:
         environments.step(actions)
         times.append(environments.seconds)
     return float(np.median(times))
-
-
-def table(shares: list[Share]) -> str:
-    """A Markdown table."""
-    heads = [
-        "task",
-        "step",
-        "precision",
-        "steps/s of the training",
-        "of the environment alone",
-        "share of wall time",
-    ]
-    heads += ["trainer's ceiling, steps/s", f"environment for a share of {100 * AIM:.0f} %, steps/s"]
-    heads += ["Python around the simulator, µs"]
-    lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --- |" * (len(heads) - 1)]
-    for found in shares:
-        needed = found.ceiling * (1.0 - AIM) / AIM
-        rates = f"{found.per_second:,.0f} | {found.environment:,.0f} | {100 * found.share:.0f} %"
-        rest = f"{found.ceiling:,.0f} | {needed:,.0f} | {1e6 * found.python_s:.0f}"
-        lines.append(
-            f"| {found.case.title} | {found.case.step_ms:g} ms | {found.case.precision} | {rates} | {rest} |"
-        )
-    return "\n".join(lines)
-
-
-def rows(shares: list[Share]) -> list[list[object]]:
-    """The same as rows of data, with a first row of names."""
-    names: list[object] = ["task", "step_ms", "precision", "training_per_s", "environment_per_s", "share"]
-    table = [[*names, "ceiling_per_s", "python_us"]]
-    for s in shares:
-        rates = [round(s.per_second), round(s.environment), round(s.share, 4), round(s.ceiling)]
-        table.append([s.case.title, s.case.step_ms, s.case.precision, *rates, round(1e6 * s.python_s)])
-    return table
-
-
-def main() -> None:
-    """Command line."""
-    argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    ).parse_args()
-    print(table([share(case) for case in CASES]))
-
-
-if __name__ == "__main__":
-    main()
