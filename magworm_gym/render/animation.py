@@ -1,5 +1,6 @@
 """Animations: frames into mp4 and gif files, several robots stacked on one time axis."""
 
+import itertools
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
@@ -52,14 +53,14 @@ def write_mp4(path: str | PathLike[str], frames: Iterable[Frame], fps: float) ->
         import imageio_ffmpeg
     except ImportError as error:
         raise ImportError("mp4 needs imageio-ffmpeg: pip install 'magworm-gym[render]'.") from error
-    first, rest = _first(frames)
+    first, frames = _begun(frames)
     part = path.with_name(f".part-{path.name}")
     writer = imageio_ffmpeg.write_frames(
         str(part), (first.shape[1], first.shape[0]), fps=fps, quality=7, macro_block_size=2
     )
     writer.send(None)
     try:
-        for frame in _chained(first, rest):
+        for frame in frames:
             writer.send(np.ascontiguousarray(frame))
     finally:
         writer.close()
@@ -79,14 +80,14 @@ def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, sc
         ValueError: There is no frame.
     """
     path = path_of("path", path)
-    first, rest = _first(frames)
+    first, frames = _begun(frames)
     size = (round(first.shape[1] * scale), round(first.shape[0] * scale))
     palette = Image.fromarray(first).quantize(GIF_COLOURS)
     images = [
         Image.fromarray(frame)
         .resize(size, Image.Resampling.BOX)
         .quantize(palette=palette, dither=Image.Dither.NONE)
-        for frame in _chained(first, rest)
+        for frame in frames
     ]
     part = path.with_name(f".part-{path.name}")
     images[0].save(
@@ -101,14 +102,10 @@ def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, sc
     os.replace(part, path)
 
 
-def _first(frames: Iterable[Frame]) -> tuple[Frame, Iterator[Frame]]:
+def _begun(frames: Iterable[Frame]) -> tuple[Frame, Iterator[Frame]]:
+    """The first frame, and all of them."""
     rest = iter(frames)
-    try:
-        return next(rest), rest
-    except StopIteration:
-        raise ValueError("an animation needs at least one frame") from None
-
-
-def _chained(first: Frame, rest: Iterator[Frame]) -> Iterator[Frame]:
-    yield first
-    yield from rest
+    first = next(rest, None)
+    if first is None:
+        raise ValueError("an animation needs at least one frame")
+    return first, itertools.chain([first], rest)

@@ -2,7 +2,8 @@
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,39 +113,23 @@ class Canvas:
         """The frame (H, W, 3)."""
         return np.array(self._image)
 
-    def region(self, around: Sequence[NDArray[np.float64]]) -> "OpenRegion | None":
-        """Supersamples the part of the frame around points.
+    @contextmanager
+    def region(self, around: Sequence[NDArray[np.float64]] | None = None) -> Iterator[Region]:
+        """Supersamples a part of the frame, to be drawn on within the block.
 
         Args:
-            around: Arrays of points (…, 2) [pixels] that the region has to hold.
-
-        Returns:
-            A context manager giving a Region, or None if nothing of it is in the frame.
+            around: Arrays of points (…, 2) [pixels] that the region has to hold; None for all of the frame.
         """
+        left, top, right, bottom = (0, 0, *self._image.size) if around is None else self._box(around)
+        size = (SUPERSAMPLING * (right - left), SUPERSAMPLING * (bottom - top))
+        enlarged = self._image.crop((left, top, right, bottom)).resize(size, Image.Resampling.NEAREST)
+        yield Region(enlarged, (left, top))
+        self._image.paste(enlarged.reduce(SUPERSAMPLING), (left, top))
+
+    def _box(self, around: Sequence[NDArray[np.float64]]) -> list[int]:
+        """Left, top, right, bottom of the pixels around points; one pixel where all lie outside the frame."""
         points = np.concatenate([np.reshape(array, (-1, 2)) for array in around])
         size = np.array(self._image.size)
-        low = np.floor(np.clip(points.min(axis=0) - MARGIN_PX, 0, size)).astype(int)
-        high = np.ceil(np.clip(points.max(axis=0) + MARGIN_PX, 0, size)).astype(int)
-        if not np.all(high > low):
-            return None
-        return OpenRegion(self._image, (int(low[0]), int(low[1]), int(high[0]), int(high[1])))
-
-    def whole(self) -> "OpenRegion":
-        """Supersamples all of the frame."""
-        return OpenRegion(self._image, (0, 0, *self._image.size))
-
-
-class OpenRegion:
-    """Enlarges a box of an image on entry and writes it back, reduced, on exit."""
-
-    def __init__(self, image: Image.Image, box: tuple[int, int, int, int]) -> None:
-        self._image = image
-        self._box = box
-        width, height = (box[2] - box[0]) * SUPERSAMPLING, (box[3] - box[1]) * SUPERSAMPLING
-        self._enlarged = image.crop(box).resize((width, height), Image.Resampling.NEAREST)
-
-    def __enter__(self) -> Region:
-        return Region(self._enlarged, self._box[:2])
-
-    def __exit__(self, *exception: object) -> None:
-        self._image.paste(self._enlarged.reduce(SUPERSAMPLING), self._box[:2])
+        low = np.clip(np.floor(points.min(axis=0) - MARGIN_PX), 0, size - 1).astype(int)
+        high = np.clip(np.ceil(points.max(axis=0) + MARGIN_PX), low + 1, size).astype(int)
+        return [*low.tolist(), *high.tolist()]

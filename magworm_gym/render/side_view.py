@@ -143,10 +143,7 @@ class SideView(Windowed):
         height = self._drive_size[1]
         for (x, y), length in zip(positions.tolist(), lengths.tolist(), strict=True):
             corners = camera.pixels(rectangle(x, y, 0.0, length, -0.5 * height, 0.5 * height))
-            opened = canvas.region([corners])
-            if opened is None:
-                continue
-            with opened as region:
+            with canvas.region([corners]) as region:
                 _draw_magnet(region, camera, (x, y, 0.0), (length, height), UPWARD)
             pole_px = 0.5 * height * camera.pixels_per_m
             if pole_px >= SMALLEST_LETTER_PX:
@@ -165,10 +162,7 @@ class SideView(Windowed):
     ) -> None:
         body = band(camera.pixels(nodes), self._thickness * camera.pixels_per_m)
         line = camera.pixels(np.reshape(trail, (-1, 2))[-TRAIL_POINTS:])
-        opened = canvas.region([body, line])
-        if opened is None:
-            return
-        with opened as region:
+        with canvas.region([body, line]) as region:
             draw_trail(region, line)
             self._draw_rubber(region, camera, nodes, body)
             magnets = zip(poses, self._magnet_offset, self._magnet_size, self._magnet_direction, strict=True)

@@ -83,7 +83,7 @@ class TopView:
             self._follow(line)
             self._draw_grid(canvas)
             path = self._pixels(np.reshape(trail, (-1, 3))[-TRAIL_POINTS:][:, [0, 2]])
-            with canvas.whole() as region:
+            with canvas.region() as region:
                 for x, _, z, yaw in drive_positions.tolist():
                     self._draw_drive(region, np.array([x, z]), yaw)
                 if goal is not None:
