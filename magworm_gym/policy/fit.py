@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from magworm_gym.arguments import shown
 from magworm_gym.policy.mistake import PolicyError
 from magworm_gym.spaces import AnyPart, Part
 
@@ -42,7 +43,7 @@ def compare_parts(kind: str, known: Iterable[Part], given: Iterable[AnyPart]) ->
             if mine != its:
                 raise PolicyError(
                     f"{name} of the environment's {kind} {other.name!r} is {its!r}; allowed for this policy: "
-                    f"{mine!r}"
+                    f"{shown(mine)}"
                 )
     if len(known) != len(given):
         names, allowed = (", ".join(part.name for part in parts) for parts in (given, known))

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 ACTIVATIONS = ("tanh", "relu")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Normaliser:
     """Brings observations to mean 0 and variance 1: clip((o − mean) / √(variance + epsilon)).
 
@@ -65,7 +65,7 @@ class Normaliser:
         return np.clip(scaled, -self.clip, self.clip).astype(np.float32)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Layer:
     """A linear layer.
 
@@ -85,7 +85,7 @@ class Layer:
         return np.asarray((rows[:, None, :] @ self.weight.T)[:, 0] + self.bias)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Network:
     """A multilayer perceptron whose outputs are actions.
 

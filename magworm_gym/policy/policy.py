@@ -24,7 +24,7 @@ Singles = NDArray[np.float32]
 LARGEST = float(np.finfo(np.float32).max)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Policy:
     """Actions for observations, and what is known of where they come from.
 

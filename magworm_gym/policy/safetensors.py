@@ -71,12 +71,12 @@ def _arrays(entries: list[tuple[str, Any]], numbers: memoryview) -> list[tuple[s
     for name, entry in entries:
         kind, shape = entry["dtype"], entry["shape"]
         if kind != TYPE:
-            raise ValueError(f"{name} has numbers of type {shown(kind)}; allowed: {TYPE!r}")
+            raise ValueError(f"{shown(name)} has numbers of type {shown(kind)}; allowed: {TYPE!r}")
         if not all(type(size) is int and size >= 0 for size in shape):
-            raise ValueError(f"{name} has the shape {shown(shape)}; allowed: whole numbers from 0 on")
+            raise ValueError(f"{shown(name)} has the shape {shown(shape)}; allowed: whole numbers from 0 on")
         end = place + SINGLE.itemsize * math.prod(shape)
         if entry["data_offsets"] != [place, end] or end > len(numbers):
-            raise ValueError(f"{name} does not lie where its shape and the arrays before it put it")
+            raise ValueError(f"{shown(name)} does not lie where its shape and the arrays before it put it")
         arrays.append((name, np.frombuffer(numbers[place:end], SINGLE).reshape(shape)))
         place = end
     if place != len(numbers):
