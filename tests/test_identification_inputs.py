@@ -21,7 +21,7 @@ from magworm_gym.identification import (
     read_problem,
     write_example_tracks,
 )
-from magworm_gym.identification.drive_motion import MOST_WAYPOINTS, read_stage, thinned
+from magworm_gym.identification.drive_motion import MOST_WAYPOINTS, drive_from_stage, read_stage, thinned
 
 DATA = Path(__file__).parent / "data"
 PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
@@ -267,6 +267,7 @@ def test_a_part_that_the_header_names_twice_is_refused(tmp_path, film):
             {"values": {"drive.motion": {**PASS["drive.motion"], "x_m": -0.3, "speed_m_s": -0.1}}},
             "the drive comes no nearer to the robot than 0.3",
         ),
+        ({"values": STILL}, r"the marks rise by 0.00\d+ m and .* does the drive pass them"),
     ],
 )
 def test_what_may_be_a_mistake_is_said_before_the_search(tmp_path, film, change, message):
@@ -334,6 +335,22 @@ def test_a_stage_of_any_rate_is_resampled_with_a_bound_that_is_said(tmp_path):
             for name in ("time_s", "x_m")]  # fmt: skip
     assert len(kept[0]) == MOST_WAYPOINTS
     assert np.abs(np.interp(time_s, *kept) - x_m).max() <= said_m + 2e-9 < 1e-5
+
+
+def test_rows_of_a_stage_that_share_their_time_are_averaged(tmp_path):
+    rows = [
+        ["time_s", "x_m", "y_m"],
+        *([t, x, "-0.022"] for t, x in (("0", "0"), ("0.1", "0"), ("0.1", "2e-6"), ("0.2", "1e-5"))),
+    ]
+    log = read_stage(saved(tmp_path / "stage.csv", rows))
+    assert log.time_s.tolist() == [0.0, 0.1, 0.2]
+    assert log.points_m[:, 0] == pytest.approx([0.0, 1e-6, 1e-5]) and log.spread_m == pytest.approx(1e-6)
+    _, (remark,) = drive_from_stage(log, 0.0, 0.2)
+    assert "3 waypoints stand for its 4 rows and miss none by more than 1e-06 m" in remark
+    _, (remark, _) = drive_from_stage(log, 0.0, 1e-3)
+    assert "are 0 to 0.2 s, and the experiment lasts 0.001 s: are they in s?" in remark
+    with pytest.raises(ProblemError, match=r"line 4, time_s is 0.1; allowed: rising"):
+        read_stage(saved(tmp_path / "stage.csv", [*rows[:2], ["0.2", "0", "0"], ["0.1", "0", "0"]]))
 
 
 def test_thinned_points_miss_none_by_more_than_they_say():

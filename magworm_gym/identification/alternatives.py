@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.evaluation import BROKEN, Evaluator
 from magworm_gym.identification.targets import Outcome
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 TRIES = 3
 """Candidates that are looked at again: a share that is allowed may still miss at one of several speeds."""

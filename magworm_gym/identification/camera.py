@@ -7,8 +7,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from magworm_gym.documents import Number, Table
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 START_SPAN_S = 0.1
 """Time at the beginning of a recording whose frames ``origin = "start"`` looks at [s]."""

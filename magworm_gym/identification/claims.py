@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.sweep import Sweep
 from magworm_gym.identification.targets import Aim, Recordings
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 MOST_NAMES = 4
 """Most curves that are named one by one."""

@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.parameters import ParameterSpace
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 FREE = 0.5
 """Length in the unit cube from which on a combination counts as free [1]."""

@@ -14,8 +14,7 @@ from magworm_gym.arguments import path_of
 from magworm_gym.identification.deeplabcut_h5 import is_hdf5, read_hdf5
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.sheet import Sheet, read_sheet
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 HEADER = ("scorer", "individuals", "bodyparts", "coords")
 COORDINATES = ("x", "y", "likelihood")

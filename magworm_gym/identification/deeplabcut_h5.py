@@ -6,11 +6,9 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.mistake import ProblemError
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.arguments import path_of
 from magworm_gym.identification.camera import START_SPAN_S
@@ -15,10 +14,12 @@ from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.filmed import FilmTable
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.sheet import read_sheet
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 COLUMNS = ("time_s", "x_m", "y_m")
+
+MOST_LONGER = 100.0
+"""Times the experiment that a measured motion may last without a word [1]."""
 
 MOST_WAYPOINTS = 10_000
 """Most waypoints of a scene."""
@@ -38,11 +39,15 @@ class StageLog:
         file: Where it comes from.
         time_s: Times, rising (W,) [s].
         points_m: Places of the drive (W, 2) in the axes of the scene [m].
+        rows: Number of rows; those of equal time are averaged.
+        spread_m: Greatest distance of a coordinate from the mean at its time [m].
     """
 
     file: Path
     time_s: Floats
     points_m: Floats
+    rows: int
+    spread_m: float
 
 
 def read_stage(path: str | PathLike[str]) -> StageLog:
@@ -56,25 +61,26 @@ def read_stage(path: str | PathLike[str]) -> StageLog:
     line, header = sheet.rows[0] if sheet.rows else (1, [])
     if any(header.count(name) != 1 for name in COLUMNS):
         raise ProblemError(f"{path}, line {line} is {','.join(header)!r}; allowed: {','.join(COLUMNS)}")
-    places = [header.index(name) for name in COLUMNS]
-    values: list[list[float]] = []
+    rows: list[list[float]] = []
     for line, row in sheet.rows[1:]:
-        if len(row) <= max(places):
-            raise ProblemError(f"{path}, line {line} has {len(row)} columns; allowed: {len(header)}")
-        numbers = [
-            sheet.number(line, f"column {name}", row[at], "a number")
-            for name, at in zip(COLUMNS, places, strict=True)
-        ]
-        for name, number in zip(COLUMNS, numbers, strict=True):
-            if not np.isfinite(number):
-                raise sheet.refusal(line, f"column {name}", str(number), "a number")
-        if values and numbers[0] <= values[-1][0]:
-            raise ProblemError(f"{path}, line {line}, time_s is {numbers[0]:g}; allowed: rising")
-        values.append(numbers)
-    if not values:
+        cells = dict(zip(header, row, strict=False))
+        rows.append(
+            [sheet.number(line, f"column {name}", cells.get(name, ""), "a number") for name in COLUMNS]
+        )
+        if not np.isfinite(rows[-1]).all():
+            raise ProblemError(
+                f"{path}, line {line} is {','.join(row)!r}; allowed: {','.join(COLUMNS)}, numbers all"
+            )
+        if len(rows) > 1 and rows[-1][0] < rows[-2][0]:
+            raise ProblemError(f"{path}, line {line}, time_s is {rows[-1][0]:g}; allowed: rising")
+    if not rows:
         raise ProblemError(f"{path} has no rows; allowed: at least one after the header")
-    table = np.array(values)
-    return StageLog(path, table[:, 0], table[:, 1:])
+    time_s, points_m = np.split(np.array(rows), [1], axis=1)
+    times_s, first, place, count = np.unique(
+        time_s[:, 0], return_index=True, return_inverse=True, return_counts=True
+    )
+    means_m = np.add.reduceat(points_m, first, axis=0) / count[:, None]
+    return StageLog(path, times_s, means_m, len(rows), float(np.abs(points_m - means_m[place]).max()))
 
 
 def drive_from_stage(log: StageLog, start_s: float, duration_s: float) -> tuple[dict[str, Any], list[str]]:
@@ -86,7 +92,7 @@ def drive_from_stage(log: StageLog, start_s: float, duration_s: float) -> tuple[
         duration_s: Duration of the experiment [s].
 
     Raises:
-        ProblemError: It says nothing of the time of the experiment.
+        ProblemError: It says nothing of the time of the experiment, or cannot be followed.
     """
     time_s = log.time_s - start_s
     first_s, last_s = float(time_s[0]), float(time_s[-1])
@@ -99,19 +105,22 @@ def drive_from_stage(log: StageLog, start_s: float, duration_s: float) -> tuple[
     remarks = []
     if len(time_s) > 1 and max(first_s, duration_s - last_s) > UNCOVERED * duration_s:
         remarks.append(f"{told} of 0 to {duration_s:g} s; in the rest the drive stands still")
-    motion, error_m = waypoints(time_s, log.points_m, duration_s)
+    if last_s > MOST_LONGER * duration_s:
+        remarks.append(f"{told}, and the experiment lasts {duration_s:g} s: are they in s?")
+    motion, more = _followed(log.file, time_s, log.points_m, duration_s, log.rows, log.spread_m)
+    return motion, remarks + more
+
+
+def _followed(
+    file: Path, time_s: Floats, points_m: Floats, duration_s: float, rows: int, spread_m: float = 0.0
+) -> tuple[dict[str, Any], list[str]]:
+    """Waypoints of a measured motion, and by how much they miss a row of it at most."""
+    motion, error_m = waypoints(time_s, points_m, duration_s)
+    error_m += spread_m
+    told = f"{file}: {len(motion['time_s'])} waypoints stand for its {rows} rows and miss none by more than"
     if error_m > FARTHEST_M:
-        raise ProblemError(
-            f"{log.file}: {MOST_WAYPOINTS} waypoints miss it by {error_m:.2g} m; allowed: a motion that they "
-            f"follow to {FARTHEST_M:g} m"
-        )
-    if error_m > 0.0:
-        count = len(motion["time_s"])
-        remarks.append(
-            f"{log.file}: {count} waypoints stand for its {len(time_s)} rows and miss none by more than "
-            f"{error_m:.2g} m"
-        )
-    return motion, remarks
+        raise ProblemError(f"{told} {error_m:.2g} m; allowed: {FARTHEST_M:g} m")
+    return motion, [f"{told} {error_m:.2g} m"] if error_m > 0.0 else []
 
 
 def waypoints(time_s: Floats, points_m: Floats, duration_s: float) -> tuple[dict[str, Any], float]:
@@ -166,8 +175,8 @@ def thinned(time_s: Floats, points_m: Floats, most: int) -> tuple[list[int], flo
 
 def drive_from_film(
     tracks: Tracks, film: FilmTable, part: str, start_m: Floats, duration_s: float, height_m: float | None
-) -> dict[str, Any]:
-    """The drive's motion from a body part of the same film.
+) -> tuple[dict[str, Any], list[str]]:
+    """The drive's motion from a body part of the same film, and what there is to say of it.
 
     Where the camera's origin is unknown, it follows from the magnets in the first 0.1 s, in which
     the robot must be in the scene's start pose.
@@ -192,7 +201,7 @@ def drive_from_film(
         points = points + _start_offset(tracks, film, start_m)
     if height_m is not None:
         points[:, 1] = height_m
-    return waypoints(time_s[seen], points, duration_s)[0]
+    return _followed(tracks.file, time_s[seen], points, duration_s, len(points))
 
 
 def _start_offset(tracks: Tracks, film: FilmTable, start_m: Floats) -> Floats:

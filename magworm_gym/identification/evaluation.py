@@ -7,16 +7,14 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym._magworm import SceneError
 from magworm_gym.identification.experiment import Run
 from magworm_gym.identification.paths import scene_numbers
 from magworm_gym.identification.problem import Problem
 from magworm_gym.identification.targets import Aim, Outcome
-from magworm_gym.recording import Recording
+from magworm_gym.recording import Floats, Recording
 
-Floats = NDArray[np.float64]
 T = TypeVar("T")
 
 BROKEN = 1e6

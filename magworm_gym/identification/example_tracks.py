@@ -5,16 +5,13 @@ from dataclasses import dataclass
 from os import PathLike
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
 from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.recording import record_scenes
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats, record_scenes
 
 RECORD_S, LONGEST_S = 2e-3, 3600.0
 ASTRAY = 20.0

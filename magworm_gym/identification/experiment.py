@@ -1,35 +1,37 @@
 """One run of the robot that was measured."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 from magworm_gym._magworm import Scene, SceneError
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.recording import Recording, record_scenes
 
 
-class Run(Protocol):
-    """Something that a candidate does and that is looked at: an experiment or a sweep."""
+@dataclass(frozen=True)
+class Run(ABC):
+    """Something that a candidate does and that is looked at: an experiment or a sweep.
+
+    Attributes:
+        name: Its name.
+        scene: The scene, before parameters are set.
+        known: Paths that it sets itself; a parameter of the same path is not fitted here.
+    """
+
+    name: str
+    scene: Scene
+    known: frozenset[str] = field(default_factory=frozenset, kw_only=True)
 
     @property
-    def name(self) -> str:
-        """Its name."""
-
-    @property
-    def scene(self) -> Scene:
-        """The scene, before parameters are set."""
-
-    @property
-    def known(self) -> frozenset[str]:
-        """Paths that it sets itself; a parameter of the same path is not fitted here."""
-
-    @property
+    @abstractmethod
     def simulated_s(self) -> float:
         """Simulated time of a candidate, all its robots together [s]."""
 
+    @abstractmethod
     def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
-        """What a candidate does, on one thread.
+        """What a candidate does, on one thread: name → recording.
 
         Args:
             values: Path of a field → its value.
@@ -39,46 +41,37 @@ class Run(Protocol):
             SceneError: The scene cannot be simulated.
         """
 
+    def fitted_scene(self, values: Mapping[str, float]) -> Scene:
+        """The scene of a candidate: its values where the run does not set them itself.
+
+        Raises:
+            SceneError: The scene cannot be simulated.
+        """
+        return self.scene.with_values(
+            {path: value for path, value in values.items() if path not in self.known}
+        )
+
 
 @dataclass(frozen=True)
-class Experiment:
+class Experiment(Run):
     """A scene that runs once from its start pose; its recording has its name.
 
     Attributes:
-        name: Its name.
         duration_s: For how long [s].
-        scene: The scene, before parameters are set.
-        known: Paths that it sets itself; a parameter of the same path is not fitted here.
     """
 
-    name: str
     duration_s: float
-    scene: Scene
-    known: frozenset[str] = field(default_factory=frozenset)
 
     @property
     def simulated_s(self) -> float:
-        """Simulated time of a candidate [s]."""
+        """The duration [s]."""
         return self.duration_s
 
     def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
         """See :meth:`Run.record`."""
-        scene = fitted_scene(self, values)
+        scene = self.fitted_scene(values)
         (recording,) = record_scenes([scene], self.duration_s, sample_s, nodes=False, threads=1)
         return {self.name: recording}
-
-
-def fitted_scene(run: Run, values: Mapping[str, float]) -> Scene:
-    """The scene of a candidate: its values where the run does not set them itself.
-
-    Args:
-        run: The run.
-        values: Path of a field → its value.
-
-    Raises:
-        SceneError: The scene cannot be simulated.
-    """
-    return run.scene.with_values({path: value for path, value in values.items() if path not in run.known})
 
 
 def edited_scene(scene: Scene, values: Mapping[str, Any], where: str) -> Scene:

@@ -144,7 +144,7 @@ def read_experiment(table: ExperimentTable, name: str, where: str, base: Scene, 
     aims += [
         _target(each, name, scene.magnets, f"{where}.targets[{at}]") for at, each in enumerate(table.targets)
     ]
-    return Found(Experiment(name, duration_s, scene, frozenset(values)), aims, remarks)
+    return Found(Experiment(name, scene, duration_s, known=frozenset(values)), aims, remarks)
 
 
 def _tracks(table: FilmTable, magnets: int, where: str, folder: Path) -> Tracks:
@@ -195,7 +195,7 @@ def _motion(
         raise ProblemError(
             f"{where}.part is {drive.part!r}; allowed: a body part of tracks that is none of the magnets"
         )
-    return drive_from_film(tracks, film, drive.part, start_places(scene), duration_s, drive.height_m), []
+    return drive_from_film(tracks, film, drive.part, start_places(scene), duration_s, drive.height_m)
 
 
 def _target(table: TargetTable, experiment: str, magnets: int, where: str) -> Target:

@@ -1,12 +1,10 @@
 """What fits about as well as the best: the set of candidates below a threshold of the loss."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.search import Limit, Losses, Progress
 from magworm_gym.identification.settings import SearchSettings
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 ROUND = 64
 

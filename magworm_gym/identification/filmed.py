@@ -14,9 +14,7 @@ from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.residual import robust
 from magworm_gym.identification.targets import Aim, Outcome, Recordings
-from magworm_gym.recording import Recording
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats, Recording
 
 DEFAULT_TOLERANCE_PX = 1.5
 

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.identifiability import RUGGED, Sensitivity
 from magworm_gym.identification.parameters import Parameter, ParameterSpace
 from magworm_gym.identification.search import Evolution
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 OPEN = 0.5
 """Part of the bounds that fits as well from which on a parameter counts as not identifiable [1]."""

@@ -4,11 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.evaluation import Evaluation
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 STEPS = (0.02, 0.005)
 """Steps of the differences, as parts of the bounds [1]."""

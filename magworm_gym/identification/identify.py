@@ -5,7 +5,6 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
@@ -23,8 +22,7 @@ from magworm_gym.identification.problem import Problem
 from magworm_gym.identification.profiles import profiles
 from magworm_gym.identification.search import Evolution, NothingRunsError, Progress, search
 from magworm_gym.identification.targets import Outcome
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 CANDIDATES = "candidates.npz"
 

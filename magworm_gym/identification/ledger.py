@@ -4,12 +4,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.atomic_files import replace_file
 from magworm_gym.identification.mistake import ProblemError
+from magworm_gym.recording import Floats
 
-Floats = NDArray[np.float64]
 LossesAndShares = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 SAME = 1e-6

@@ -5,12 +5,10 @@ from math import exp, log
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.documents import Number, Table, Text
 from magworm_gym.identification.mistake import ProblemError
-
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 
 class Bounds(Table, frozen=True):

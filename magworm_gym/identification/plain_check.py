@@ -3,13 +3,11 @@
 What cannot be meant is refused; what need not be a mistake is said.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym._magworm import Scene, SceneError
 from magworm_gym.identification.camera import Camera
@@ -17,13 +15,8 @@ from magworm_gym.identification.deeplabcut import Tracks
 from magworm_gym.identification.experiment import Experiment
 from magworm_gym.identification.filmed import Film
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.targets import Comparison, Target
-from magworm_gym.recording import Recording, record_scenes
-
-if TYPE_CHECKING:
-    from magworm_gym.identification.problem import Problem
-
-Floats = NDArray[np.float64]
+from magworm_gym.identification.targets import Aim, Target
+from magworm_gym.recording import Floats, Recording, record_scenes
 
 REST_S = 0.1
 """Time at the beginning of a film in which marks are taken to be at rest [s]."""
@@ -47,6 +40,9 @@ MOST_TRIED_S = 20.0
 
 CLEARLY = 0.4
 """Part of its loss that another reading of a film must have to be suggested [1]."""
+
+STILL, MOVED = 0.1, 10.0
+"""Part of the way of marks up to which magnets are still [1]; tolerances from which marks have moved [1]."""
 
 FAR_M = 0.1
 """Distance at which a drive magnet no longer moves a robot [m]."""
@@ -123,45 +119,44 @@ def start_places(scene: Scene) -> Floats:
 
 
 def _at_rest(film: Film) -> tuple[list[int], Floats]:
-    """Magnets that are seen at the beginning, and the medians of their places (K, 2) [m]."""
-    begun = film.time_s <= film.time_s.min() + REST_S
-    magnets = sorted(set(film.magnet[begun].tolist()))
-    return magnets, np.array(
-        [np.median(film.points_m[begun & (film.magnet == at)], axis=0) for at in magnets]
-    )
+    """Magnets that are seen, and the medians of their first places (K, 2) [m]."""
+    magnets, places = sorted(set(film.magnet.tolist())), []
+    for magnet in magnets:
+        time_s = film.time_s[film.magnet == magnet]
+        begun = time_s <= time_s.min() + REST_S
+        places.append(np.median(film.points_m[film.magnet == magnet][begun], axis=0))
+    return magnets, np.array(places)
 
 
 def _angle_deg(way: Floats) -> float:
     return float(np.degrees(np.arctan2(way[1], way[0])))
 
 
-def doubts(problem: "Problem") -> Iterator[str]:
-    """What there is to say of a problem whose films are compared with the scene as it is.
+def doubts(experiments: Sequence[Experiment], aims: Sequence[Aim], sample_s: float) -> Iterator[str]:
+    """What there is to say where films and drives are compared with the scene as it is.
 
     Args:
-        problem: The problem.
+        experiments: The experiments.
+        aims: What is compared with them.
+        sample_s: Time between two instants of a recording [s].
     """
-    for aim in problem.aims:
-        if isinstance(aim, Target | Comparison):
-            yield from _doubts_of_unit(aim, problem.base)
-    films = {aim.experiment: aim for aim in problem.aims if isinstance(aim, Film)}
-    for experiment in problem.experiments:
-        film = films.get(experiment.name)
+    films = {aim.experiment: aim for aim in aims if isinstance(aim, Film)}
+    for experiment in experiments:
+        length_m = experiment.scene.body_length_m
+        for aim in aims:
+            if isinstance(aim, Target) and aim.experiment == experiment.name:
+                yield from _doubts_of_unit(aim, length_m)
         try:
-            yield from _doubts_of_run(experiment, film, problem.sample_s)
+            yield from _doubts_of_run(experiment, films.get(experiment.name), sample_s)
         except SceneError:  # the scene as it is may lie outside of the bounds that the search keeps
             continue
 
 
-def _doubts_of_unit(aim: Target | Comparison, base: Scene) -> Iterator[str]:
+def _doubts_of_unit(target: Target, length_m: float) -> Iterator[str]:
     """Of a target that is a length."""
-    if isinstance(aim, Target):
-        kind, asked = aim.quantity.kind, [abs(bound) for bound in (aim.low, aim.high) if np.isfinite(bound)]
-    else:
-        kind, asked = aim.greater[1].kind, [abs(aim.by)]
-    if kind.endswith("_m") and max(asked) > MOST_LENGTHS * base.body_length_m:
-        length_m = base.body_length_m
-        yield f"{aim.name} is asked to be {max(asked):g} m, and the body is {length_m:.3g} m long: in m?"
+    asked_m = max(abs(bound) for bound in (target.low, target.high) if np.isfinite(bound))
+    if target.quantity.kind.endswith("_m") and asked_m > MOST_LENGTHS * length_m:
+        yield f"{target.name} is asked to be {asked_m:g} m, and the body is {length_m:.3g} m long: in m?"
 
 
 def _doubts_of_run(experiment: Experiment, film: Film | None, sample_s: float) -> Iterator[str]:
@@ -191,7 +186,13 @@ def _doubts_of_film(film: Film, run: Recording) -> Iterator[str]:
     as_given = losses[1.0, SHIFTS_S[len(SHIFTS_S) // 2]]
     (rate, shift_s), least = min(losses.items(), key=lambda item: item[1])
     mirrored = _loss(replace(film, points_m=film.points_m * np.array([1.0, -1.0])), run)
-    if mirrored < min(CLEARLY * as_given, least):
+    rise_m, model_rise_m = _rise_m(film), float(np.ptp(run.magnet_poses[..., 1], axis=0).max())
+    if model_rise_m < STILL * rise_m and rise_m > MOVED * film.tolerance:
+        yield (
+            f"{name}: the marks rise by {rise_m:.2g} m and the scene's magnets by {model_rise_m:.2g} m: does "
+            "the drive pass them in that time?"
+        )
+    elif mirrored < min(CLEARLY * as_given, least):
         other = "up" if camera.y_axis == "down" else "down"
         yield f'{name}: the marks move as the magnets of the scene would with y_axis = "{other}"'
     elif least < CLEARLY * as_given and rate != 1.0:
@@ -206,6 +207,12 @@ def _doubts_of_film(film: Film, run: Recording) -> Iterator[str]:
             f"{name}: the marks move about {abs(shift_s):.1f} s {when} than the scene's magnets would: is "
             "the time right at which the drive begins (start_s)?"
         )
+
+
+def _rise_m(film: Film) -> float:
+    """By how much the mark that moves most rises and falls, outliers left out [m]."""
+    heights = (film.points_m[film.magnet == magnet, 1] for magnet in np.unique(film.magnet))
+    return max(float(np.ptp(np.percentile(each, [5.0, 95.0]))) for each in heights)
 
 
 def _loss(film: Film, run: Recording) -> float:

@@ -80,7 +80,7 @@ class Problem:
     @cached_property
     def noticed(self) -> tuple[str, ...]:
         """What may be a mistake, in sentences: remarks, and what a run of the scene as it is shows."""
-        return (*self.remarks, *doubts(self))
+        return (*self.remarks, *doubts(self.experiments, self.aims, self.sample_s))
 
     @property
     def measurements(self) -> float:

@@ -1,9 +1,8 @@
 """Profiles: how well a parameter fits at each value, the others free."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 SLICES = 10
 """Slices of a parameter's bounds."""

@@ -5,12 +5,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from magworm_gym.recording import Recording
-
-Floats = NDArray[np.float64]
-
+from magworm_gym.recording import Floats, Recording
 
 Measure = Literal["lift_m", "peak_m", "stride_m", "displacement_m", "end_angle_deg", "angle_range_deg"]
 

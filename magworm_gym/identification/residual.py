@@ -3,9 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from magworm_gym.recording import Floats
 
 SCALAR_KNEE = 20.0
 """Tolerances beyond which the loss of a scalar target grows with the logarithm only [1]."""

@@ -11,13 +11,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.evaluation import BROKEN
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.settings import SearchSettings
+from magworm_gym.recording import Floats
 
-Floats = NDArray[np.float64]
 Losses = Callable[[Floats, Floats], Floats]
 """Gives the losses (C,) of points of the unit cube (C, P), exact up to bounds (C,); beyond its bound a loss
 is only known to be greater than that."""

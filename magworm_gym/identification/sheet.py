@@ -75,6 +75,8 @@ def read_text(path: Path, what: str) -> str:
         wide = raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
         return raw.decode("utf-16" if wide else "utf-8-sig")
     except UnicodeDecodeError as error:
-        raise ProblemError(f"{what} {path} is no text file in UTF-8") from error
+        raise ProblemError(
+            f"{what} {path} is no text in UTF-8; allowed: a text file saved as UTF-8"
+        ) from error
     except OSError as error:
         raise ProblemError(f"{what} {path} cannot be read: {error.strerror}") from error

@@ -5,7 +5,7 @@ a fifth of scenes of their own. Robots are sorted by speed, since lanes wait for
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import ceil
 from typing import Annotated
@@ -17,10 +17,8 @@ from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch, Scene
 from magworm_gym.documents import Table
-from magworm_gym.identification.experiment import fitted_scene
-from magworm_gym.recording import Recording
-
-Floats = NDArray[np.float64]
+from magworm_gym.identification.experiment import Run
+from magworm_gym.recording import Floats, Recording
 
 LANES = 8
 """Robots that run side by side: the lanes of a block."""
@@ -59,12 +57,10 @@ class Lane:
 
 
 @dataclass(frozen=True)
-class Sweep:
-    """A robot that is passed by a drive at many speeds, each under a few slightly different conditions.
+class Sweep(Run):
+    """A robot that a drive in constant motion passes at many speeds, each under a few conditions.
 
     Attributes:
-        name: Its name.
-        scene: The scene with a drive in constant motion, before parameters, its start and speed are set.
         speeds_m_s: Speeds of the drive (S,), rising [m/s].
         conditions: Factors of the scene's values by name (C,); results are averaged over them.
         backward: Whether the drive moves from tail to head.
@@ -72,11 +68,8 @@ class Sweep:
         beyond_m: How far beyond the other end a single drive magnet has passed [m].
         settle_s: How long the robot is given from then on, while the drive moves on [s].
         belt: Passes that are measured where the drive is a belt.
-        known: Paths that it sets itself; a parameter of the same path is not fitted here.
     """
 
-    name: str
-    scene: Scene
     speeds_m_s: tuple[float, ...]
     conditions: tuple[Mapping[str, float], ...] = ({},)
     backward: bool = False
@@ -84,7 +77,6 @@ class Sweep:
     beyond_m: float = 0.05
     settle_s: float = 0.25
     belt: Passes | None = None
-    known: frozenset[str] = field(default_factory=frozenset)
 
     @cached_property
     def lanes(self) -> list[list[Lane]]:
@@ -116,7 +108,7 @@ class Sweep:
         Raises:
             SceneError: The scene cannot be simulated.
         """
-        scene = fitted_scene(self, values)
+        scene = self.fitted_scene(values)
         start_m, sign = (scene.body_length_m + self.ahead_m, -1.0) if self.backward else (-self.ahead_m, 1.0)
         motion = {"drive.motion.x_m": start_m, "drive.motion.speed_m_s": sign * self.speeds_m_s[0]}
         scene = scene.with_values({**motion, "control.step_s": sample_s})

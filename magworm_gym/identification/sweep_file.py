@@ -91,7 +91,7 @@ def _sweep(table: SweepTable, where: str, name: str, base: Scene, values: dict[s
         table.beyond_m,
         table.settle_s,
         table.belt,
-        frozenset(values),
+        known=frozenset(values),
     )
 
 

@@ -5,13 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.residual import guiding
-from magworm_gym.recording import Recording
+from magworm_gym.recording import Floats, Recording
 
-Floats = NDArray[np.float64]
 Recordings = Mapping[str, Recording]
 """Name of an experiment, or of a robot of a sweep → what it gave."""
 
