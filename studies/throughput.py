@@ -1,15 +1,15 @@
 """Environment steps per second in the plane and in space.
 
-Prints a table and writes JSON: the native vector environments of the tasks to crawl (plane) and to turn
+Prints a table and writes a report as JSON, from which pages are filled:
+the native vector environments of the tasks to crawl (plane) and to turn
 (space), in lanes and one by one, in double and single precision, on all cores and on one, each the median of
 several runs after a warm-up, with what the contact solve took. What steps of the solver cost in accuracy is
 in ``docs/performance.md``. A minute.
 
-    python -m studies.throughput --out runs/bench/throughput.json
+    python -m studies.throughput --out docs/results/throughput.json
 """
 
 import argparse
-import json
 import os
 import platform
 import statistics
@@ -21,6 +21,7 @@ from typing import Any
 import gymnasium
 
 from magworm_gym import Scene
+from magworm_gym.learning.results import Column, Interval, Report, Table
 
 ENVIRONMENTS = 256
 CONTROL_STEPS = 50
@@ -130,6 +131,20 @@ def report(result: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def as_report(found: dict[str, dict[str, Any]], repetitions: int) -> Report:
+    """Both dimensions as data: medians with their ranges, and all else that was counted."""
+    headings = {name: f"{name}: `{result['scene']}`" for name, result in found.items()}
+    columns = [Column(name, heading, ",.0f", ends="({} to {})") for name, heading in headings.items()]
+    table = Table([Column("how", "environment steps/s"), *columns], [])
+    for case in CASES:
+        row: dict[str, str | float | Interval] = {"how": case.name()}
+        for name, result in found.items():
+            low, high = result["steps_per_second_range"][case.name()]
+            row[name] = Interval(result["steps_per_second"][case.name()], low, high, repetitions)
+        table.rows.append(row)
+    return Report("Environment steps per second", {"table": table}, found)
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -144,7 +159,7 @@ def main() -> None:
         print(report(result))
     if arguments.out is not None:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        arguments.out.write_text(json.dumps(found, indent=2) + "\n")
+        as_report(found, arguments.repetitions).write(arguments.out)
 
 
 if __name__ == "__main__":
