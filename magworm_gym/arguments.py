@@ -111,6 +111,14 @@ def choice(name: str, value: T, allowed: Sequence[T]) -> T:
     return value
 
 
+def autoreset(value: AnyAutoreset) -> AutoresetMode:
+    """A mode of autoreset, or the one of a name."""
+    modes = tuple(mode.value for mode in AutoresetMode)
+    return (
+        value if isinstance(value, AutoresetMode) else AutoresetMode(choice("autoreset_mode", value, modes))
+    )
+
+
 def indices(name: str, value: Sequence[int], count: int) -> tuple[int, ...]:
     """One or more different indices of `count` environments."""
     given = [whole(index) for index in value] if isinstance(value, Iterable) else []

@@ -19,6 +19,7 @@ from magworm_gym.arguments import (
     Lanes,
     RenderMode,
     action_rows,
+    autoreset,
     choice,
     indices,
     positive,
@@ -123,16 +124,16 @@ class MagWormVectorEnv(Specified, VectorEnv[Observations, ArrayLike, NDArray[Any
         self.num_envs = positive("num_envs", num_envs)
         self.render_mode = choice("render_mode", render_mode, (None, *RENDER_MODES))
         self._render_envs = indices("render_envs", render_envs, self.num_envs)
-        autoreset, drawn = AutoresetMode(autoreset_mode), load_randomise(randomise)
+        mode, drawn = autoreset(autoreset_mode), load_randomise(randomise)
         batch = controlled_batch(scenes, self.num_envs, lanes, threads)
         limit = episode_steps(batch.scene) if max_episode_steps is None else max_episode_steps
         limit = positive("max_episode_steps", limit)
         ready = settings.prepared(batch.scene, batch.observation_specification, self.num_envs)
-        self._worlds = Worlds(batch, ready, Robots(batch, drawn), autoreset, limit)
+        self._worlds = Worlds(batch, ready, Robots(batch, drawn), mode, limit)
         self.metadata = {
             "render_modes": list(RENDER_MODES),
             "render_fps": max(1, round(1.0 / self.scene.control_step_s)),
-            "autoreset_mode": autoreset,
+            "autoreset_mode": mode,
         }
         self.single_observation_space = box(self.observation_specification)
         self.single_action_space = box(batch.action_specification)

@@ -352,7 +352,8 @@ def test_returned_arrays_are_the_caller_s() -> None:
         ({"render_mode": "ansi"}, "render_mode is 'ansi'"),
         ({"render_envs": (3,)}, "render_envs is"),
         ({"render_envs": ()}, "render_envs is"),
-        ({"autoreset_mode": "Sometimes"}, "Sometimes"),
+        ({"autoreset_mode": "Sometimes"}, "autoreset_mode is 'Sometimes'; allowed: 'NextStep', 'SameStep'"),
+        ({"autoreset_mode": None}, "autoreset_mode is None; allowed: 'NextStep'"),
         ({"lanes": "narrow"}, "narrow"),
     ],
 )

@@ -4,6 +4,7 @@ import functools
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,8 @@ from magworm_gym.render.palette import Colour
 
 SUPERSAMPLING = 3
 MARGIN_PX = 3.0
+Anchor: TypeAlias = Literal["la", "ra", "mm", "mt"]
+"""Of a written line, as in Pillow: left, middle or right, then ascender, middle or top."""
 LINE_SPACING = 1.35
 
 
@@ -22,7 +25,7 @@ def _font(size_px: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
 
 
 @functools.lru_cache(maxsize=512)
-def _writing(text: str, size_px: int, anchor: str) -> tuple[Image.Image, tuple[int, int]]:
+def _writing(text: str, size_px: int, anchor: Anchor) -> tuple[Image.Image, tuple[int, int]]:
     """Coverage of a written line, and where its upper left corner lies from the anchor [pixels]."""
     font = _font(SUPERSAMPLING * size_px)
     left, top, right, bottom = font.getbbox(text, anchor=anchor)
@@ -89,7 +92,7 @@ class Canvas:
         self._draw = ImageDraw.Draw(self._image)
 
     def text(
-        self, place: tuple[float, float], text: str, size_px: float, colour: Colour, anchor: str = "la"
+        self, place: tuple[float, float], text: str, size_px: float, colour: Colour, anchor: Anchor = "la"
     ) -> None:
         """Writes lines of text.
 
@@ -98,7 +101,7 @@ class Canvas:
             text: Lines separated by newlines.
             size_px: Size of the letters [pixels].
             colour: Colour of the letters.
-            anchor: As in Pillow: "la" left and ascender, "mm" middle of both, "ra" right.
+            anchor: Which point of a line that is.
         """
         for number, line in enumerate(text.split("\n")):
             mask, (left, top) = _writing(line, round(size_px), anchor)
