@@ -61,11 +61,15 @@ class Robots:
         self, mask: Flags, seeds: NDArray[np.int64], numbers: NDArray[np.int64], episodes: Episodes
     ) -> None:
         """Draws robots for the environments of mask (N,), in the episodes (N,) of seeds (N,)."""
-        batch = self._batch
-        for name, factors in self._randomise.factors(seeds, numbers).items():
-            drawn = mask & ~episodes.own_factors[:, batch.parameter_names.index(name)]
-            batch.set_parameter(name, np.where(drawn, factors, batch.parameter(name)))
+        batch, starting = self._batch, np.flatnonzero(mask)
+        seeds, numbers = seeds[starting], numbers[starting]
+        for name, drawn in self._randomise.factors(seeds, numbers).items():
+            own = episodes.own_factors[starting, batch.parameter_names.index(name)]
+            factors = batch.parameter(name)
+            factors[starting] = np.where(own, factors[starting], drawn)
+            batch.set_parameter(name, factors)
         if self._randomise.removed > 0.0:
-            drawn = mask & ~episodes.own_magnets
-            present = self._randomise.present(self._whole, seeds, numbers)
-            batch.set_magnets_present(np.where(drawn[:, None], present, batch.magnets_present()))
+            own, present = episodes.own_magnets[starting], batch.magnets_present()
+            drawn_magnets = self._randomise.present(self._whole[starting], seeds, numbers)
+            present[starting] = np.where(own[:, None], present[starting], drawn_magnets)
+            batch.set_magnets_present(present)
