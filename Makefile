@@ -89,7 +89,7 @@ install: install-test  ## .venv with the extension and all extras
 lint: lint-layers lint-rust lint-python  ## layers, formatting, clippy, ruff, mypy, stubs
 bench: install-test  ## time of a wrench, a step, and the throughput of environments
 	cargo bench --package magworm
-	$(VENV_PYTHON) -m studies.throughput --out docs/results/throughput.json
+	$(VENV_PYTHON) -m studies measure speed --out runs/bench/speed.csv
 
 count: need-valgrind count-program  ## instructions of steps and wrenches beside the committed ones; needs valgrind
 	$(PYTHON) -m studies.needs.counts

@@ -10,6 +10,7 @@ MODULES = {
     "needs": "studies.needs.study",
     "paper": "studies.paper.study",
     "peak": "studies.peak.study",
+    "speed": "studies.speed.study",
     "validation": "studies.validation.study",
 }
 """Every study, and the module that holds it."""

@@ -9,11 +9,11 @@ from studies.error.cases import CASES
 from studies.error.errors import Error, errors
 from studies.error.settings import MS, Settings, quarter
 from studies.kit.passes import values_of
-from studies.throughput import measured
+from studies.speed.rates import measured
 
 LEVELS = {"fast": 50, "balanced": 50, "reference": 10}
 """Words, and control steps of each timed run; the reference is slow."""
-TASKS = {"crawl": ("MagWorm/Crawl-v0", "paper-3"), "turn": ("MagWorm/Turn-v0", "turn-3")}
+TASKS = {"crawl": ("MagWorm/Crawl-v0", "paper-3"), "turn": ("MagWorm/Turn-v1", "turn-3")}
 """Environment and preset by case."""
 
 
@@ -48,7 +48,7 @@ def levels(repetitions: int) -> Iterator[Level]:
         for word, control_steps in LEVELS.items():
             scene = Scene.preset(preset).with_values({"solver.accuracy": word})
             found = CASES[name].run(settings_of(scene))
-            rates = measured(task, scene, repetitions, control_steps=control_steps).per_second
+            rates, _ = measured(task, scene, repetitions, control_steps=control_steps)
             yield Level(name, word, settings_of(scene), tuple(errors(found, reference, {})), tuple(rates))
 
 
