@@ -41,14 +41,12 @@ class Column(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
         heading: What stands above it, with the unit.
         form: Format of its numbers, as Python's ``format`` takes it.
         factor: What the numbers are multiplied by.
-        ends: How the ends of an interval are written behind its value.
     """
 
     key: str
     heading: str
     form: str = ""
     factor: float = 1.0
-    ends: str = "[{}, {}]"
 
     def text(self, cell: str | float | Interval) -> str:
         """A cell as it is printed."""
@@ -56,7 +54,7 @@ class Column(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
             return cell
         if isinstance(cell, Interval):
             value, low, high = (self.text(number) for number in (cell.value, cell.low, cell.high))
-            return f"{value} {self.ends.format(low, high)}"
+            return f"{value} [{low}, {high}]"
         return format(cell * self.factor, self.form)
 
 
