@@ -23,7 +23,10 @@ DIGITS = 6
 
 
 def write_rows(path: Path, kind: type[Any], rows: Sequence[Any], digits: int = DIGITS) -> None:
-    """Writes dataclasses of a kind, one a line; the fields of one within another are columns as well."""
+    """Writes dataclasses of a kind, one a line.
+
+    The fields of a dataclass within another are columns as well; a tuple of numbers is one cell, with spaces.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     names = [name for name, _ in _columns(kind)]
     with path.open("w", newline="", encoding="utf-8") as file:
@@ -94,6 +97,8 @@ def _cells(row: Any, digits: int) -> Iterator[tuple[str, Any]]:
         value = getattr(row, field.name)
         if is_dataclass(value):
             yield from _cells(value, digits)
+        elif isinstance(value, tuple):
+            yield field.name, " ".join(f"{number:.{digits}g}" for number in value)
         elif isinstance(value, float):
             yield field.name, "" if math.isnan(value) else f"{value:.{digits}g}"
         else:
@@ -108,6 +113,8 @@ def _nested(kind: type[Any], cells: dict[str, str]) -> dict[str, Any]:
         if inner:
             given = any(cells[column] for column, _ in _columns(inner))
             values[name] = _nested(inner, cells) if given or not absent else None
+        elif issubclass(get_origin(of) or of, tuple):
+            values[name] = cells[name].split()
         elif cells[name] == "" and of is not str:
             values[name] = None if absent else "nan"
         else:
