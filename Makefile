@@ -48,7 +48,8 @@ paper: install-test  ## simulate the paper's experiments again: docs/paper.md be
 	$(VENV_PYTHON) -m studies render paper
 
 turning-map: install-test  ## how far a pass beside the robot turns it, when it tips over: docs/turning.md
-	$(VENV_PYTHON) -m studies.turning
+	$(VENV_PYTHON) -m studies measure turning
+	$(VENV_PYTHON) -m studies render turning
 
 study-error: install-test  ## error against run time: docs/performance.md; minutes
 	$(VENV_PYTHON) -m studies measure error

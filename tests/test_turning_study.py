@@ -1,37 +1,27 @@
 """The study of turning: what a pass did, means over neighbours, tables. No full run."""
 
 import math
-import sys
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
-
 from magworm_gym import Recording, Scene, record_scenes
-from studies.kit.passes import PASS_S, one_pass
-from studies.turning.data import points_csv, tipping_csv
-from studies.turning.findings import first_tipping
-from studies.turning.page import page
-from studies.turning.passes import (
-    MM,
-    Drive,
-    Outcome,
-    averaged,
-    outcome_of,
-    outcomes,
-    points,
-    rolls_deg,
-)
+from studies.kit.data import read_rows, write_rows
+from studies.kit.passes import MM, PASS_S, one_pass
+from studies.turning.figures import per_pass
+from studies.turning.findings import first_tipping, left_out, margins, shortened
+from studies.turning.passes import Drive, Outcome, Rolls, Tipping, outcome_of, outcomes, rolls_deg
 from studies.turning.plane import PRESETS, Comparison, comparisons
+from studies.turning.points import Point, Spread, averaged, points
+from studies.turning.study import text
 from studies.turning.sweeps import SWEEPS, TIPPING, TIPPING_OFFSETS_MM
 
 
 def outcome(stride_mm: float = 3.0, roll_deg: float = 10.0, end_roll_deg: float = 0.0) -> Outcome:
-    return Outcome(2.0, 0.5, stride_mm, np.array([1.0, roll_deg, 1.0]), end_roll_deg)
+    return Outcome(2.0, 0.5, stride_mm, Rolls((1.0, roll_deg, 1.0), end_roll_deg))
 
 
 def about(axis: int, angle_deg: float) -> np.ndarray:
@@ -59,9 +49,9 @@ def test_a_turn_and_a_step_of_a_recording_are_read() -> None:
     nothing = np.zeros((2, 0, 3))
     record = Recording(np.array([0.0, 1.0]), nothing, poses, np.ones(2, bool), nothing)
     found = outcome_of(record)
-    assert found.yaw_deg == pytest.approx(30.0)
+    assert found.turn_deg == pytest.approx(30.0)
     assert (found.stride_mm, found.side_mm) == (pytest.approx(3.0), pytest.approx(1.0))
-    assert not found.tipped and not found.carried
+    assert not found.rolls.tipped and not found.carried
 
 
 def test_a_broken_simulation_is_no_pass() -> None:
@@ -73,12 +63,12 @@ def test_a_broken_simulation_is_no_pass() -> None:
 
 def test_passes_that_tip_or_are_carried_are_counted_and_left_out() -> None:
     found = [outcome(3.0), outcome(4.0), outcome(-30.0), outcome(99.0, 70.0), outcome(99.0, 180.0, 180.0)]
-    point = averaged(Drive(3), found)
+    point = averaged("offset", Drive(3), found)
     assert (point.kept, point.tipped, point.overturned, point.carried) == (2, 2, 1, 1)
     assert (point.stride_mm.mean, point.stride_mm.low, point.stride_mm.high) == (3.5, 3.0, 4.0)
-    assert point.roll_deg[1] == pytest.approx(np.mean([10.0, 10.0, 10.0, 70.0, 180.0]))
-    none = averaged(Drive(3), [outcome(0.0, 90.0)])
-    assert none.kept == 0 and math.isnan(none.yaw_deg.mean)
+    assert point.roll_deg[1] == point.most_rolled == pytest.approx(np.mean([10.0, 10.0, 10.0, 70.0, 180.0]))
+    none = averaged("offset", Drive(3), [outcome(0.0, 90.0)])
+    assert none.kept == 0 and math.isnan(none.turn_deg.mean) and str(none.turn_deg) == "–"
 
 
 def test_the_first_offset_that_tips_is_bracketed() -> None:
@@ -88,39 +78,89 @@ def test_the_first_offset_that_tips_is_bracketed() -> None:
     assert first_tipping([True, *never[1:]]) == "0 to 0.01 mm"
 
 
-def test_tables_have_a_row_a_point() -> None:
-    sweeps = {"offset": [averaged(Drive(3, 1.0), [outcome()]), averaged(Drive(5), [outcome(0.0, 90.0)])]}
-    header, first, second = (line.split(",") for line in points_csv(sweeps).splitlines())
-    row, empty = dict(zip(header, first, strict=True)), dict(zip(header, second, strict=True))
-    assert (row["offset_mm"], row["yaw_deg_mean"], row["roll_4_deg"]) == ("1", "2.000", "")
-    assert (empty["magnets"], empty["tipped"], empty["stride_mm_mean"]) == ("5", "1", "")
-    assert tipping_csv([Drive(3)], [outcome()]).count("\n") == 2
+def test_a_roll_beyond_its_share_is_amplified() -> None:
+    def rolled(drive: Drive) -> Rolls:
+        grown = 0.05 if drive.magnets == 4 and drive.offset_mm == 0.01 else drive.offset_mm
+        return Rolls((0.0, 70.0 if drive.offset_mm > 9.0 else grown), 0.0)
+
+    for row in margins(Tipping(drive, rolled(drive)) for drive in TIPPING).values():
+        assert [margin.amplified for margin in row.values()] == [False, True, False]
+        assert {margin.first for margin in row.values()} == {"8 to 10 mm"}
+
+
+def test_points_come_back_from_their_table(tmp_path) -> None:
+    found = [
+        averaged("offset", Drive(3, 1.0), [outcome()]),
+        averaged("offset", Drive(5), [outcome(0.0, 90.0)]),
+    ]
+    write_rows(tmp_path / "points.csv", Point, found)
+    first, second = read_rows(tmp_path / "points.csv", Point)
+    assert first == found[0] and first.turn_deg == Spread(2.0, 2.0, 2.0)
+    assert second.roll_deg == (1.0, 90.0, 1.0) and math.isnan(second.stride_mm.mean)
+
+
+def made() -> dict[str, list[Point]]:
+    return {
+        name: [
+            averaged(name, drive, [outcome(3.0), outcome(3.5 + 0.01 * i)]) for i, drive in enumerate(drives)
+        ]
+        for name, drives in SWEEPS.items()
+    }
 
 
 def test_a_page_is_written_from_results_alone() -> None:
-    sweeps = {
-        name: [averaged(drive, [outcome(3.0), outcome(3.5 + 0.01 * i)]) for i, drive in enumerate(drives)]
-        for name, drives in SWEEPS.items()
-    }
-    tipping = [outcome(roll_deg=90.0 if drive.magnets == 4 else 1.0) for drive in TIPPING]
+    single = [
+        Tipping(drive, outcome(roll_deg=90.0 if drive.magnets == 4 else 1.0).rolls) for drive in TIPPING
+    ]
     same = Comparison("paper-3", "pass", "peak", 9.0, 9.01, 0.1, 0.0, 9.0, 0.5)
     apart = Comparison("paper-4", "pass", "stride", 2.0, 2.2, 0.3, 0.0, 2.0, 7.0)
-    text = page(sweeps, TIPPING, tipping, [same, apart])
-    assert text == page(sweeps, TIPPING, tipping, [same, apart])
-    assert "nan" not in text and "1 of 2 figures agree within 1 %" in text and "10.00 % | **no**" in text
+    page = text(made(), single, [same, apart])
+    assert "nan" not in page and "1 of 2 figures agree within 1 %" in page and "10.00 % | **no**" in page
+    assert "four magnets at −20, −22, −24, −26, −28, −30, −32 and −34 mm" in page
+    assert "tip over" not in page.split("## Yaw of the drive")[1].split("## Roll")[0]
+
+
+def test_a_page_says_where_robots_tip_over_and_are_carried_along() -> None:
+    sweeps = made()
+    over = [averaged("offset", point.drive, [outcome(roll_deg=90.0)]) for point in sweeps["offset"]]
+    away = [replace(point, turn_deg=Spread(-2.0, -3.0, 3.0)) for point in sweeps["yaw"]]
+    carried = [averaged("height", point.drive, [outcome(-30.0)]) for point in sweeps["height"]]
+    single = [Tipping(drive, outcome().rolls) for drive in TIPPING]
+    same = Comparison("paper-3", "pass", "peak", 9.0, 9.01, 0.1, 0.0, 9.0, 0.5)
+    page = text(sweeps | {"offset": over, "yaw": away, "height": carried}, single, [same])
+    assert "Four magnets tip over at every offset from 0 to 15 mm" in page and "**not within**" in page
+    assert "**neighbours turn to opposite sides** at 0, 10, 20" in page
+    assert "Three magnets: at least one neighbour tips over at every offset from 0 to 15 mm" in page
+    assert left_out(carried[:2], "height_mm", " mm") == "; all neighbours are carried along at −20 and −22 mm"
+
+
+def test_a_figure_marks_points_without_a_mean() -> None:
+    points = made()["height"]
+    gone = replace(points[0], tipped=2, turn_deg=Spread(math.nan, math.nan, math.nan))
+    panel = per_pass([gone, *points[1:]], "height_mm", "height").axes[0]
+    assert [list(line.get_xdata()) for line in panel.lines if line.get_marker() == "x"] == [[-20.0], [], []]
+
+
+def test_shorter_steps_are_set_beside_the_longest() -> None:
+    (row, *_) = shortened(made()["step"])
+    assert [each.measure for each in row] == ["turn_deg", "side_mm", "stride_mm"]
+    stride = row[2]
+    assert len(stride.spreads) == 3 and stride.inside and stride.moved == pytest.approx(0.01)
 
 
 def test_a_pass_on_the_line_turns_nothing_and_mirrored_passes_turn_oppositely() -> None:
     middle, left, right = outcomes([Drive(3), Drive(3, 3.0), Drive(3, -3.0)])
     (flat,) = record_scenes([one_pass(Scene.preset("paper-3"))], PASS_S)
-    assert abs(middle.yaw_deg) < 1e-3 and middle.stride_mm == pytest.approx(MM * flat.progress_m[-1], abs=0.1)
-    assert left.yaw_deg > 0.5 and not left.tipped
-    assert right.yaw_deg == pytest.approx(-left.yaw_deg, abs=0.3)
+    assert abs(middle.turn_deg) < 1e-3 and middle.stride_mm == pytest.approx(
+        MM * flat.progress_m[-1], abs=0.1
+    )
+    assert left.turn_deg > 0.5 and not left.rolls.tipped
+    assert right.turn_deg == pytest.approx(-left.turn_deg, abs=0.3)
 
 
 def test_neighbours_are_run_around_a_point() -> None:
-    (point,) = points([Drive(3, 3.0, speed_mm_s=210.0)], (-0.1, 0.1))
-    assert point.passes == 2 and point.yaw_deg.low < point.yaw_deg.mean < point.yaw_deg.high
+    (point,) = points("speed", [Drive(3, 3.0, speed_mm_s=210.0)], (-0.1, 0.1))
+    assert point.passes == 2 and point.turn_deg.low < point.turn_deg.mean < point.turn_deg.high
 
 
 def test_a_planar_preset_keeps_its_lift_in_space() -> None:

@@ -170,7 +170,7 @@ def passes_beside(friction: float | None) -> list[Scene]:
 def read_turn(records: Sequence[Recording]) -> Outcome:
     """Stride [mm], yaw [°] and places of the magnets."""
     found = [outcome_of(record) for record in records]
-    stride, yaw = np.array([[one.stride_mm, one.yaw_deg] for one in found]).T
+    stride, yaw = np.array([[one.stride_mm, one.turn_deg] for one in found]).T
     return Outcome({"stride": stride, "yaw": yaw}, tracks(records, 3))
 
 

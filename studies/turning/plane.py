@@ -6,14 +6,15 @@ from typing import Any
 import numpy as np
 
 from magworm_gym import Recording, Scene, record_scenes
-from studies.kit.passes import HOLD_S, LOW_M, PASS_S, PLANE_M, RISE_S, one_pass, under_middle, values_of
-from studies.turning.passes import MM, rolls_deg
+from studies.kit.passes import HOLD_S, LOW_M, MM, PASS_S, PLANE_M, RISE_S, one_pass, under_middle, values_of
+from studies.turning.passes import rolls_deg
 
 PRESETS = ("paper-3", "paper-4", "paper-5")
 BELT, BELT_PERIOD_S = "belt-125", 1.25
 ASIDE_MM = 0.01
 """Ours: a drive that is not quite on the line; on it nothing rolls, stable or not."""
 SAMPLE_S = 0.002
+WITHIN = 0.01
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,11 @@ class Comparison:
     def difference(self) -> float:
         """Space over plane, less 1."""
         return self.space_mm / self.plane_mm - 1.0
+
+    @property
+    def agrees(self) -> bool:
+        """Whether space and plane are within 1 % of each other."""
+        return abs(self.difference) <= WITHIN
 
 
 def comparisons() -> list[Comparison]:

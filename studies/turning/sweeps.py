@@ -10,6 +10,8 @@ YAWS_DEG = tuple(10.0 * i for i in range(10))
 HEIGHTS_MM = tuple(-20.0 - 2.0 * i for i in range(8))
 SPEEDS_MM_S = (20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0, 180.0, 210.0)
 
+UNIT_MM = 1.0
+"""Ours: the offset beside which the roll of the smallest is put."""
 TIPPING_OFFSETS_MM = (0.01, 0.1, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 12.0, 15.0)
 """The first is small enough to be a perturbation: the roll that it leaves is one of stability."""
 
