@@ -11,7 +11,7 @@ from studies.error.magnets import PLACES_M, POLARITIES, ROBOT
 from studies.error.peers import cantilever
 from studies.error.peers.cantilever import tip_only
 from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, MagnetRod, magnet_inertia, magnet_rod
-from studies.error.peers.measure import Measured, Series, Track, apart, fewest_steps, measured
+from studies.error.peers.measure import Measured, Series, Track, apart, longest_step_s, measured
 from studies.error.peers.runs import ELASTICA, PEERS, peer_run, reference_mm, why_missing
 from studies.error.study import run_peers
 
@@ -99,20 +99,23 @@ def test_distances_are_averaged_over_points_and_instants() -> None:
     assert apart(moved, still) == pytest.approx((25.0 / 6.0) ** 0.5 / 54.0)
 
 
-def test_the_fewest_steps_that_neither_break_nor_change_when_halved_are_found() -> None:
-    def tip_mm(steps: int) -> Track:
-        if steps < 100:
-            return INFINITE
-        return tip_only(50.0, -40.0) if steps < 150 else tip_only(50.0, -10.0)
+def test_the_longest_step_that_neither_breaks_nor_changes_when_halved_is_found() -> None:
+    def release(_: int, step_s: float):
+        if step_s > 1 / 99.5:
+            return lambda: INFINITE
+        return lambda: tip_only(50.0, -40.0) if step_s > 1 / 149.5 else tip_only(50.0, -10.0)
 
-    assert 150 <= fewest_steps(tip_mm, 10) <= 165
-    assert fewest_steps(tip_mm, 10, instants=40) == 160
-    assert fewest_steps(tip_mm, 10, same=1.0) <= 110
+    def fewest_steps(**how) -> int:
+        return round(1.0 / longest_step_s(release, 9, 0.1, **how))
+
+    assert 150 <= fewest_steps() <= 165
+    assert fewest_steps(instants=40) == 160
+    assert fewest_steps(same=1.0) <= 110
 
 
 def test_what_is_never_stable_is_said() -> None:
     with pytest.raises(RuntimeError, match="no step is stable: tried 10 to"):
-        fewest_steps(lambda _: INFINITE, 10)
+        longest_step_s(lambda _, __: lambda: INFINITE, 9, 0.1)
 
 
 def test_each_mesh_is_run_at_its_longest_stable_step_and_at_half_of_it() -> None:

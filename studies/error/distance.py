@@ -14,12 +14,9 @@ PLACES_M = (0.0, 0.3, 1.0, 3.0, 10.0)
 
 @dataclass(frozen=True)
 class Distance:
-    """Passes of the drive at some place.
+    """Error of single precision where the robot starts at a place [m].
 
-    Attributes:
-        step_ms: Step [ms].
-        place_m: Where the robot starts [m].
-        error: Of single precision, against double precision with the same step at the origin.
+    It is against double precision at the origin with the same step.
     """
 
     step_ms: float

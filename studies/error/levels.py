@@ -19,15 +19,7 @@ TASKS = {"crawl": ("MagWorm/Crawl-v0", "paper-3"), "turn": ("MagWorm/Turn-v1", "
 
 @dataclass(frozen=True)
 class Level:
-    """One word in a case.
-
-    Attributes:
-        case: The case's name.
-        word: The word.
-        settings: What it stands for.
-        errors: Against the case's reference.
-        steps_per_second: Environment steps per second with random actions on all cores, by run.
-    """
+    """What a word stands for in a case, errors against its reference, environment steps per second by run."""
 
     case: str
     word: str

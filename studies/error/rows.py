@@ -11,14 +11,9 @@ from studies.error.work import Work, work
 
 @dataclass(frozen=True)
 class Row:
-    """A figure's error under some settings.
+    """A figure's error under some settings, and what they cost; no cost along most axes.
 
-    Attributes:
-        case: Its name.
-        part: What is varied, "step", "elements", "order", "interval" or "precision"; or "front", "check".
-        settings: Under which.
-        error: Of the figure.
-        work: What they cost; none along most axes.
+    `part` is what is varied, "step", "elements", "order", "interval" or "precision"; or "front", "check".
     """
 
     case: str

@@ -17,16 +17,7 @@ ENOUGH_S = 0.5
 
 @dataclass(frozen=True)
 class Size:
-    """What is simulated.
-
-    Attributes:
-        dimensions: 2 or 3.
-        environments: Number of environments.
-        threads: Threads; None for all cores.
-        nodes: Nodes of a body.
-        magnets: Magnets of a body.
-        drive_magnets: Drive magnets.
-    """
+    """What is simulated: numbers of each; threads are none for all cores."""
 
     dimensions: int
     environments: int

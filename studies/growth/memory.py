@@ -16,12 +16,9 @@ RESIDENT = Path("/proc/self/statm")
 
 @dataclass(frozen=True)
 class Memory:
-    """Bytes of an environment.
+    """Bytes of an environment: what changes in time and is saved, and growth of the resident set.
 
-    Attributes:
-        dimensions: 2 or 3.
-        resident: Growth of the resident set; None where the system does not tell it in ``/proc``.
-        state: What changes in time and is saved; the rest is the workspace of a step.
+    That is none where the system does not tell it in ``/proc``; it holds the workspace of a step as well.
     """
 
     dimensions: int

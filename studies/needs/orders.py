@@ -20,12 +20,9 @@ EXACT_ACROSS = 10
 
 @dataclass(frozen=True)
 class OrderError:
-    """Largest error of the force relative to the weight, the drive up to 60 mm to either side.
+    """Largest error of the force by order of the quadrature, relative to the weight.
 
-    Attributes:
-        dimensions: 2 or 3.
-        height_m: Of the body's centre over the drive's [m].
-        order_1, order_2, order_3, order_4: Of the quadrature.
+    At a height of the body's centre over the drive's, the drive up to 60 mm to either side.
     """
 
     dimensions: int

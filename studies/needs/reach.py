@@ -93,13 +93,9 @@ def shares_beyond(distance_m: NDArray[np.float64], limit_m: float) -> tuple[floa
 
 @dataclass(frozen=True)
 class Beyond:
-    """What is out of reach of a tolerance.
+    """Distance of centres beyond which the force is below a tolerance, in weights of the robot.
 
-    Attributes:
-        tolerance: Force that may be left out, relative to the robot's weight.
-        limit_m: Distance of centres beyond which it is below that [m].
-        wrenches: Share of the wrenches.
-        blocks: Share of the wrenches of eight lanes.
+    And the shares of wrenches, and of blocks of eight lanes, that are beyond it.
     """
 
     tolerance: float

@@ -94,12 +94,9 @@ class Account:
 
 @dataclass(frozen=True)
 class Step:
-    """A step in the plane or in space.
+    """A step in the plane or in space: its phases, the whole step last.
 
-    Attributes:
-        phases: All of them, the whole step last.
-        systems: Linear systems with contact a step, by lanes.
-        times: Of the whole step by instruction set and lanes.
+    And its linear systems with contact by lanes, and its times by instruction set and lanes.
     """
 
     phases: list[Account]

@@ -71,14 +71,9 @@ class Operations:
 
 @dataclass(frozen=True)
 class Work:
-    """What a phase does in a solver step of a block of eight, or of one lane: the mean of the same eight.
+    """What a phase does in a solver step of eight lanes, or of one: the mean of the same eight.
 
-    Attributes:
-        place: The plane or space.
-        lanes: Eight or one.
-        phase: Which.
-        rows: Rows of lanes that are read or written.
-        operations: All of them.
+    `rows`: Rows of lanes that are read or written.
     """
 
     place: str
@@ -90,14 +85,7 @@ class Work:
 
 @dataclass(frozen=True)
 class Chain:
-    """The longest chain of operations in a phase that wait for each other.
-
-    Attributes:
-        place: The plane or space.
-        phase: Which.
-        ns: How long it takes [ns].
-        operations: Those of the chain.
-    """
+    """The longest chain of operations in a phase that wait for each other, and its time [ns]."""
 
     place: str
     phase: str

@@ -10,11 +10,9 @@ LANES = 8
 
 @dataclass(frozen=True)
 class Rates:
-    """Times of an instruction set for operations of eight lanes [ns].
+    """Times for operations of eight lanes, by kernel [ns].
 
-    Attributes:
-        throughput_ns: By kernel, where nothing waits.
-        latency_ns: By kernel, where each round waits for the one before.
+    Throughput is where nothing waits, latency where each round waits for the one before.
     """
 
     throughput_ns: Mapping[str, float]

@@ -31,6 +31,8 @@ RIGIDITIES_N_M2 = SECONDS_M4 * np.array([YOUNGS_MODULUS_PA, YOUNGS_MODULUS_PA, S
 """Stiffness against bending about z and y, and twist."""
 SHEAR_FACTOR = 5.0 / 6.0
 """Of a rectangle."""
+SHEAR_N, STRETCH_N = SHEAR_FACTOR * SHEAR_MODULUS_PA * AREA_M2, YOUNGS_MODULUS_PA * AREA_M2
+"""Stiffness against shear and stretching."""
 SOUND_M_S = math.sqrt(YOUNGS_MODULUS_PA / DENSITY_KG_M3)
 """Speed of a wave along the rod."""
 

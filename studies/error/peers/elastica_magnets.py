@@ -30,11 +30,8 @@ SAME = 0.002
 class Plan:
     """What is run of a rod.
 
-    Attributes:
-        stiffening: The rod.
-        limits_s: For each mesh a step hardly longer than it allows [s].
-        finest: A finer mesh, with such a step [s].
-        every: Steps from one computation of the wrenches to the next, and on which meshes.
+    For each mesh a step hardly longer than it allows [s]; a finer mesh with such a step; and by steps from one
+    computation of the wrenches to the next, on which meshes.
     """
 
     stiffening: Stiffening

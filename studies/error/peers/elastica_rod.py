@@ -15,28 +15,13 @@ from typing import Any
 import elastica
 import numpy as np
 
-from studies.error.peers.cantilever import (
-    AREA_M2,
-    DENSITY_KG_M3,
-    DURATION_S,
-    GRAVITY_M_S2,
-    RIGIDITIES_N_M2,
-    SECONDS_M4,
-    SHEAR_FACTOR,
-    SHEAR_MODULUS_PA,
-    SOUND_M_S,
-    THICKNESS_M,
-    YOUNGS_MODULUS_PA,
-    half_cell_length_m,
-    tip_only,
-)
+from studies.error.peers import cantilever
 from studies.error.peers.measure import Series, Track, finest, measured
 from studies.kit.passes import MM, Floats
 
 MESHES = (9, 18, 27, 54)
 FINEST = 80
 """With 108 the rod, which has no damper, broke up within the second at every step tried."""
-SHEAR_N = SHEAR_FACTOR * SHEAR_MODULUS_PA * AREA_M2
 
 
 class Rods(elastica.BaseSystemCollection, elastica.Constraints, elastica.Forcing):  # type: ignore[misc]
@@ -51,27 +36,27 @@ def series() -> list[Series]:
 
 def limit_s(elements: int) -> float:
     """Longest step [s], 2/ω, of an element that turns against the shear of its neighbours."""
-    stretching = 2.0 * SOUND_M_S / half_cell_length_m(elements)
-    shear_m_s = math.sqrt(SHEAR_FACTOR * SHEAR_MODULUS_PA / DENSITY_KG_M3)
-    shearing = math.sqrt(12.0) * shear_m_s / THICKNESS_M
+    stretching = 2.0 * cantilever.SOUND_M_S / cantilever.half_cell_length_m(elements)
+    shear_m_s = math.sqrt(cantilever.SHEAR_FACTOR * cantilever.SHEAR_MODULUS_PA / cantilever.DENSITY_KG_M3)
+    shearing = math.sqrt(12.0) * shear_m_s / cantilever.THICKNESS_M
     return 2.0 / math.hypot(stretching, shearing)
 
 
 def released(elements: int, step_s: float) -> Callable[[], Track]:
     """The rod at rest, and what runs it."""
-    length_m = half_cell_length_m(elements)
+    length_m = cantilever.half_cell_length_m(elements)
     rod = cosserat_rod(
         length_m * (np.arange(elements + 1, dtype=np.float64) - 0.5),
-        shear_n=np.array([SHEAR_N, SHEAR_N, YOUNGS_MODULUS_PA * AREA_M2]),
-        bend_n_m2=RIGIDITIES_N_M2,
-        inertias_kg_m2=DENSITY_KG_M3 * length_m * SECONDS_M4,
+        shear_n=np.array([cantilever.SHEAR_N, cantilever.SHEAR_N, cantilever.STRETCH_N]),
+        bend_n_m2=cantilever.RIGIDITIES_N_M2,
+        inertias_kg_m2=cantilever.DENSITY_KG_M3 * length_m * cantilever.SECONDS_M4,
     )
-    advance = clamped(rod, elastica.GravityForces, acc_gravity=np.array([0.0, -GRAVITY_M_S2, 0.0]))
+    advance = clamped(rod, elastica.GravityForces, acc_gravity=np.array([0.0, -cantilever.GRAVITY_M_S2, 0.0]))
 
     def run() -> Track:
-        advance(0.0, step_s, round(DURATION_S / step_s))
+        advance(0.0, step_s, round(cantilever.DURATION_S / step_s))
         x, y, _ = MM * rod.position_collection[:, -1]
-        return tip_only(x, y)
+        return cantilever.tip_only(x, y)
 
     return run
 
@@ -112,10 +97,10 @@ def cosserat_rod(nodes_m: Floats, shear_n: Floats, bend_n_m2: Floats, inertias_k
         direction=np.array([1.0, 0.0, 0.0]),
         normal=np.array([0.0, 0.0, 1.0]),  # the weak axis
         base_length=float(np.ptp(nodes_m)),
-        base_radius=math.sqrt(AREA_M2 / math.pi),
-        density=DENSITY_KG_M3,
-        youngs_modulus=YOUNGS_MODULUS_PA,
-        shear_modulus=SHEAR_MODULUS_PA,
+        base_radius=math.sqrt(cantilever.AREA_M2 / math.pi),
+        density=cantilever.DENSITY_KG_M3,
+        youngs_modulus=cantilever.YOUNGS_MODULUS_PA,
+        shear_modulus=cantilever.SHEAR_MODULUS_PA,
         position=places_m,
     )
     set_diagonals(rod.shear_matrix, shear_n)

@@ -10,19 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from studies.error.magnets import PLACES_M, ROBOT
-from studies.error.peers.cantilever import (
-    AREA_M2,
-    DENSITY_KG_M3,
-    LENGTH_M,
-    RIGIDITIES_N_M2,
-    SECONDS_M4,
-    SHEAR_FACTOR,
-    SHEAR_MODULUS_PA,
-    THICKNESS_M,
-    WIDTH_M,
-    YOUNGS_MODULUS_PA,
-    half_cell_length_m,
-)
+from studies.error.peers import cantilever
 from studies.kit.passes import Floats
 
 Indices = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -91,7 +79,7 @@ def magnet_rod(elements: int, stiffening: Stiffening) -> MagnetRod:
 
 def mesh(elements: int) -> tuple[Floats, Indices]:
     """Lengths of the elements [m], and which magnet each belongs to. Magnets end where elements do."""
-    size_m, magnet_m = half_cell_length_m(elements), ROBOT["magnet"]["length_m"]
+    size_m, magnet_m = cantilever.half_cell_length_m(elements), ROBOT["magnet"]["length_m"]
     lengths_m: list[float] = []
     magnets: list[int] = []
     reached_m = 0.0
@@ -108,8 +96,8 @@ def mesh(elements: int) -> tuple[Floats, Indices]:
         lengths_m += [0.5 * magnet_m] * 2
         magnets += [magnet] * 2
         reached_m = place_m + 0.5 * magnet_m
-    count = max(1, round((LENGTH_M - reached_m) / size_m))
-    lengths_m += [(LENGTH_M - reached_m) / count] * count
+    count = max(1, round((cantilever.LENGTH_M - reached_m) / size_m))
+    lengths_m += [(cantilever.LENGTH_M - reached_m) / count] * count
     magnets += [SOFT] * count
     return np.array(lengths_m), np.array(magnets)
 
@@ -118,9 +106,9 @@ def magnet_inertia() -> tuple[float, Floats]:
     """Mass [kg] of a magnet with the rubber around it, and moments of inertia about z, y and x [kg·m²]."""
     magnet = ROBOT["magnet"]
     box_m = np.array([magnet["length_m"], magnet["height_m"], magnet["width_m"]])
-    cell_m = np.array([magnet["length_m"], THICKNESS_M, WIDTH_M])
+    cell_m = np.array([magnet["length_m"], cantilever.THICKNESS_M, cantilever.WIDTH_M])
     magnet_kg = magnet["density_kg_m3"] * box_m.prod()
-    around_kg = DENSITY_KG_M3 * (cell_m.prod() - box_m.prod())
+    around_kg = cantilever.DENSITY_KG_M3 * (cell_m.prod() - box_m.prod())
 
     def squares(size_m: Floats) -> Floats:
         return np.array(
@@ -133,9 +121,9 @@ def magnet_inertia() -> tuple[float, Floats]:
 
 def inertia(lengths_m: Floats, magnets: Indices, middles: Indices) -> tuple[Floats, Floats]:
     """Masses of the nodes [kg] and moments of inertia of the elements about z, y and x [kg·m²]."""
-    rubber_kg = np.where(magnets == SOFT, DENSITY_KG_M3 * AREA_M2 * lengths_m, 0.0)
+    rubber_kg = np.where(magnets == SOFT, cantilever.DENSITY_KG_M3 * cantilever.AREA_M2 * lengths_m, 0.0)
     masses_kg = 0.5 * (np.append(rubber_kg, 0.0) + np.append(0.0, rubber_kg))
-    inertias_kg_m2 = DENSITY_KG_M3 * SECONDS_M4[:, None] * lengths_m
+    inertias_kg_m2 = cantilever.DENSITY_KG_M3 * cantilever.SECONDS_M4[:, None] * lengths_m
     magnet_kg, magnet_kg_m2 = magnet_inertia()
     arm_m = 0.5 * ROBOT["magnet"]["length_m"]
     in_ends_kg_m2 = 2.0 * END_SHARE * magnet_kg * arm_m**2 * np.array([1.0, 1.0, 0.0])
@@ -151,13 +139,12 @@ def stiffness(
 ) -> tuple[Floats, Floats]:
     """Against shear and stretching [N], and against bending and twist [N·m²]."""
     soft = magnets == SOFT
-    shear_n = SHEAR_FACTOR * SHEAR_MODULUS_PA * AREA_M2 * stiffening.shear
-    sheared_n = shear_n * np.where(soft, 1.0, stiffening.magnet_shear)
-    stretched_n = YOUNGS_MODULUS_PA * AREA_M2 * np.where(soft, 1.0, stiffening.magnet_stretching)
+    sheared_n = cantilever.SHEAR_N * stiffening.shear * np.where(soft, 1.0, stiffening.magnet_shear)
+    stretched_n = cantilever.STRETCH_N * np.where(soft, 1.0, stiffening.magnet_stretching)
     # A bend is over half of either element: as long as it is of rubber, that is how much it gives.
     halves_m = 0.5 * lengths_m
     gives_m = np.where(soft, halves_m, 0.0)
     bends_m = gives_m[1:] + gives_m[:-1]
     bends_m[middles - 1] = 0.5 * ROBOT["magnet"]["length_m"] / stiffening.magnet_bending
     factor = (halves_m[1:] + halves_m[:-1]) / bends_m
-    return np.stack([sheared_n, sheared_n, stretched_n]), RIGIDITIES_N_M2[:, None] * factor
+    return np.stack([sheared_n, sheared_n, stretched_n]), cantilever.RIGIDITIES_N_M2[:, None] * factor

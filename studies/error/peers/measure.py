@@ -1,9 +1,8 @@
 """A peer's runs: the largest stable step for each mesh, shorter ones, and their wall times."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -16,7 +15,6 @@ Track = Floats
 Release = Callable[[int, float], Callable[[], Track]]
 """Of a number of elements and a step [s]: builds the rod, and returns what runs it for a second."""
 
-REFINEMENTS = (1, 2)
 REPETITIONS = 3
 LONGER = 1.1
 """Factor between two steps that are tried."""
@@ -38,13 +36,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Series:
-    """Runs that differ in mesh and step.
-
-    Attributes:
-        scheme: What they have in common.
-        runs: Of all meshes.
-        finest_mm: What a mesh finer than theirs gives [mm].
-    """
+    """Runs of all meshes with one scheme, and what a mesh finer than theirs gives [mm]."""
 
     scheme: str
     runs: Sequence[Measured]
@@ -57,19 +49,12 @@ def apart(track_mm: Track, other_mm: Track) -> float:
     return float(np.sqrt(squared.mean())) / (MM * LENGTH_M)
 
 
-def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
-    """The largest stable step for each mesh, then half of it.
-
-    Args:
-        release: Of the peer.
-        meshes: Numbers of elements, each with a step hardly longer than it allows [s],
-            where the search begins.
-    """
+def measured(release: Release, meshes: Mapping[int, float]) -> list[Measured]:
+    """The largest stable step for each mesh, given with a step hardly longer [s], then half of it."""
     runs = []
     for elements, limit_s in meshes.items():
         longest_s = longest_step_s(release, elements, limit_s)
-        for refinement in REFINEMENTS:
-            step_s = longest_s / refinement
+        for step_s in (longest_s, 0.5 * longest_s):
             runs.append(Measured(elements, step_s, *timed(release, elements, step_s)))
     return runs
 
@@ -77,7 +62,7 @@ def measured(release: Release, meshes: dict[int, float]) -> list[Measured]:
 def longest_step_s(
     release: Release, elements: int, limit_s: float, instants: int = 1, same: float = SAME
 ) -> float:
-    """The largest stable step [s], within a tenth.
+    """The largest stable step of a mesh, within a tenth [s].
 
     Args:
         release: Of the peer.
@@ -85,9 +70,17 @@ def longest_step_s(
         limit_s: A step hardly longer than it allows [s].
         instants: At which the run is looked at; its steps are a multiple of them.
         same: How little, over the length, halving it may change.
+
+    Raises:
+        RuntimeError: Nothing is stable within 300 times as many steps.
     """
-    first = math.ceil(DURATION_S / limit_s)
-    return DURATION_S / fewest_steps(partial(track, release, elements), first, instants, same)
+    first = steps = instants * math.ceil(DURATION_S / (limit_s * instants))
+    for _ in range(MOST_TRIALS):
+        found = track(release, elements, steps)
+        if np.abs(found).max() < FARTHEST_MM and apart(found, track(release, elements, 2 * steps)) < same:
+            return DURATION_S / steps
+        steps = instants * math.ceil(LONGER * steps / instants)
+    raise RuntimeError(f"no step is stable: tried {first} to {steps} steps a second")
 
 
 def finest(release: Release, elements: int, limit_s: float, instants: int = 1) -> Track:
@@ -98,27 +91,6 @@ def finest(release: Release, elements: int, limit_s: float, instants: int = 1) -
 def track(release: Release, elements: int, steps: int) -> Track:
     """What the second gives in so many steps."""
     return release(elements, DURATION_S / steps)()
-
-
-def fewest_steps(track_mm: Callable[[int], Track], first: int, instants: int = 1, same: float = SAME) -> int:
-    """The fewest steps that are stable, within a tenth.
-
-    Args:
-        track_mm: What so many steps give.
-        first: Steps to begin with.
-        instants: Which divide the steps.
-        same: How little, over the length, twice as many may change.
-
-    Raises:
-        RuntimeError: Nothing is stable within 300 times as many.
-    """
-    steps = instants * math.ceil(first / instants)
-    for _ in range(MOST_TRIALS):
-        found = track_mm(steps)
-        if np.abs(found).max() < FARTHEST_MM and apart(found, track_mm(2 * steps)) < same:
-            return steps
-        steps = instants * math.ceil(LONGER * steps / instants)
-    raise RuntimeError(f"no step is stable: tried {first} to {steps} steps a second")
 
 
 def timed(release: Release, elements: int, step_s: float) -> tuple[Track, float]:

@@ -13,18 +13,7 @@ from functools import partial
 
 import mujoco
 
-from studies.error.peers.cantilever import (
-    DENSITY_KG_M3,
-    DURATION_S,
-    GRAVITY_M_S2,
-    SHEAR_MODULUS_PA,
-    SOUND_M_S,
-    THICKNESS_M,
-    WIDTH_M,
-    YOUNGS_MODULUS_PA,
-    half_cell_length_m,
-    tip_only,
-)
+from studies.error.peers import cantilever
 from studies.error.peers.measure import Series, Track, finest, measured
 from studies.kit.passes import MM
 
@@ -70,29 +59,29 @@ def series() -> list[Series]:
 
 def limit_s(elements: int, scheme: str) -> float:
     """Longest step [s] for the bending wave that turns from box to box, slowed by the boxes' own inertia."""
-    box_m = half_cell_length_m(elements)
+    box_m = cantilever.half_cell_length_m(elements)
     wave_number = 2.0 / box_m
-    gyration_m = THICKNESS_M / math.sqrt(12.0)
+    gyration_m = cantilever.THICKNESS_M / math.sqrt(12.0)
     slowed = math.sqrt(1.0 + (wave_number * gyration_m) ** 2)
-    return LIMITS[scheme] / (SOUND_M_S * gyration_m * wave_number**2 / slowed)
+    return LIMITS[scheme] / (cantilever.SOUND_M_S * gyration_m * wave_number**2 / slowed)
 
 
 def cable(elements: int, step_s: float, scheme: str) -> str:
     """The model as MuJoCo's XML."""
-    box_m = half_cell_length_m(elements)
+    box_m = cantilever.half_cell_length_m(elements)
     return CABLE.format(
         step_s=step_s,
         scheme=scheme,
-        gravity_m_s2=-GRAVITY_M_S2,
+        gravity_m_s2=-cantilever.GRAVITY_M_S2,
         nodes=elements + 1,
         whole_m=elements * box_m,
         start_m=-0.5 * box_m,
         half_m=0.5 * box_m,
-        half_thickness_m=0.5 * THICKNESS_M,
-        half_width_m=0.5 * WIDTH_M,
-        shear_modulus_pa=SHEAR_MODULUS_PA,
-        youngs_modulus_pa=YOUNGS_MODULUS_PA,
-        density_kg_m3=DENSITY_KG_M3,
+        half_thickness_m=0.5 * cantilever.THICKNESS_M,
+        half_width_m=0.5 * cantilever.WIDTH_M,
+        shear_modulus_pa=cantilever.SHEAR_MODULUS_PA,
+        youngs_modulus_pa=cantilever.YOUNGS_MODULUS_PA,
+        density_kg_m3=cantilever.DENSITY_KG_M3,
     )
 
 
@@ -102,10 +91,10 @@ def released(scheme: str, elements: int, step_s: float) -> Callable[[], Track]:
     data = mujoco.MjData(model)
 
     def run() -> Track:
-        mujoco.mj_step(model, data, round(DURATION_S / step_s))
+        mujoco.mj_step(model, data, round(cantilever.DURATION_S / step_s))
         mujoco.mj_kinematics(model, data)
         along = data.geom_xmat[-1].reshape(3, 3)[:, 0]
         x, y, _ = MM * (data.geom_xpos[-1] + model.geom_size[-1, 0] * along)
-        return tip_only(x, y)
+        return cantilever.tip_only(x, y)
 
     return run
