@@ -8,6 +8,7 @@ pytest.importorskip("stable_baselines3")
 from magworm_gym import SceneError
 from studies.growth.measure import Cost, Point, Size, point
 from studies.growth.memory import Memory
+from studies.growth.share import Case, around_s
 from studies.growth.study import PLACES, Machine, figure, text
 from studies.growth.sweeps import BEYOND, SWEEPS, Setting, exponent, refusals
 
@@ -74,3 +75,8 @@ def test_the_page_holds_every_point_and_exponent() -> None:
     assert [panel.get_xlabel() for panel in figure(points).axes] == [
         sweep.title for sweep in SWEEPS if sweep.name != "threads"
     ]
+
+
+def test_what_surrounds_the_simulator_is_timed_alone() -> None:
+    found = around_s(Case("crawl", 5.0))
+    assert 0.0 < found < 1.0

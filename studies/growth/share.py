@@ -120,13 +120,13 @@ class Share:
 
 def share(case: Case) -> Share:
     """Trains with the environment and with one that does nothing."""
-    steps, wall_s, inside_s = _trained(Timed, case)
-    idle_steps, idle_s, _ = _trained(Idle, case)
+    steps, wall_s, inside_s = trained(Timed, case)
+    idle_steps, idle_s, _ = trained(Idle, case)
     ceiling = idle_steps / idle_s
-    return Share(case, steps / wall_s, steps / inside_s, inside_s / wall_s, ceiling, _around(case))
+    return Share(case, steps / wall_s, steps / inside_s, inside_s / wall_s, ceiling, around_s(case))
 
 
-def _trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
+def trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
     """Environment steps, wall time and the part of it within steps [s], after a rollout to warm up."""
     settings: dict[str, Any] = msgspec.toml.decode(SETTINGS.read_bytes())
     torch.set_num_threads(1)  # the network is small: a second thread waits more than it computes
@@ -144,7 +144,7 @@ def _trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
     return ROLLOUTS * rollout, time.perf_counter() - start, environments.seconds
 
 
-def _around(case: Case) -> float:
+def around_s(case: Case) -> float:
     """Median time of a step in which no episode ends, less that of the simulator [s]."""
     environments = Timed(ENVIRONMENTS, case.scene, task=case.task)
     environments.reset()

@@ -30,8 +30,8 @@ SAME = 0.002
 class Plan:
     """What is run of a rod.
 
-    For each mesh a step hardly longer than it allows [s]; a finer mesh with such a step; and by steps from one
-    computation of the wrenches to the next, on which meshes.
+    For each mesh a step hardly longer than it allows [s]; a finer mesh with such a step; and by steps from
+    one computation of the wrenches to the next, on which meshes.
     """
 
     stiffening: Stiffening
