@@ -2,12 +2,9 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,34 +14,13 @@ pytest.importorskip("matplotlib")
 
 TRAINING = Path(__file__).parent.parent / "training"
 
-from magworm_gym.learning import train  # noqa: E402
-from magworm_gym.learning.checkpoints import complete_checkpoints  # noqa: E402
 from magworm_gym.learning.command_line import UsageError  # noqa: E402
 from magworm_gym.learning.compare import evaluate  # noqa: E402
 from magworm_gym.learning.compare.intervals import Interval, interquartile_mean, interval  # noqa: E402
 from magworm_gym.learning.compare.report import Result, verdict  # noqa: E402
 from magworm_gym.learning.compare.stages import Stages  # noqa: E402
 from magworm_gym.learning.damage import factors_for_each, removable_sets, removed_for_each, robot_name  # noqa: E402
-from magworm_gym.learning.settings import read_saved_settings, settings_from  # noqa: E402
 
-SMALL_TRAINING = """
-[run]
-num_envs = 8
-steps = 1024
-seeds = [3]
-episode_steps = 50
-checkpoint_steps = 256
-removed_share = 0.5
-parameter_spread = 0.1
-[policy]
-hidden = [16]
-normalise = true
-[algorithm]
-n_steps = 16
-batch_size = 64
-n_epochs = 2
-gamma = 0.98
-"""
 TINY_BUDGET = """
 [training]
 num_envs = 8
@@ -70,113 +46,6 @@ settle_s = 0.1
 measure_s = 0.4
 animation_s = 0.3
 """
-
-
-@pytest.fixture
-def config(tmp_path: Path) -> Path:
-    path = tmp_path / "small.toml"
-    path.write_text(SMALL_TRAINING)
-    return path
-
-
-def weights(folder: Path) -> list[np.ndarray]:
-    from stable_baselines3 import PPO
-
-    model = PPO.load(folder / "seed-3" / "policy" / "model.zip", device="cpu")
-    return [value.numpy() for value in model.policy.state_dict().values()]
-
-
-def finished(folder: Path) -> dict[str, Any]:
-    summary: dict[str, Any] = json.loads((folder / "seed-3" / "finished.json").read_text())
-    return summary
-
-
-def killed_training(config: Path, out: Path) -> int:
-    """Kills a training after its first checkpoint; returns the steps of the last complete one."""
-    command = [
-        sys.executable,
-        str(TRAINING / "train.py"),
-        "crawl",
-        "--config",
-        str(config),
-        "--out",
-        str(out),
-    ]
-    process = subprocess.Popen([*command, "--steps", "1000000"], stderr=subprocess.PIPE)
-    checkpoints = out / "seed-3" / "checkpoints"
-    deadline = time.monotonic() + 300.0
-    while not complete_checkpoints(checkpoints) and process.poll() is None:
-        assert time.monotonic() < deadline, "no checkpoint within five minutes"
-        time.sleep(0.01)
-    process.send_signal(signal.SIGKILL)
-    process.communicate()
-    assert process.returncode == -signal.SIGKILL
-    return int(complete_checkpoints(checkpoints)[-1].name)
-
-
-def test_killed_training_goes_on_from_its_last_checkpoint(config: Path, tmp_path: Path) -> None:
-    out = tmp_path / "killed"
-    kept = killed_training(config, out)
-    (out / "seed-3" / "checkpoints" / ".part-999999999999").mkdir()
-    settings = json.loads((out / "settings.json").read_text())
-    settings["steps"] = kept + 512
-    (out / "settings.json").write_text(json.dumps(settings))
-    train.main(["crawl", "--resume", "--out", str(out)])
-    assert finished(out)["resumed_at_step"] == kept
-    assert finished(out)["steps"] == kept + 512
-    steps = [point[0] for point in finished(out)["curve"]]
-    assert steps == sorted(set(steps))
-
-
-def test_interrupted_training_ends_as_an_uninterrupted_one(
-    config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from magworm_gym.learning import training as crawl_training
-
-    flags = ["crawl", "--config", str(config), "--out"]
-    train.main([*flags, str(tmp_path / "whole")])
-
-    save = crawl_training.save_checkpoint
-
-    def interrupt_after_the_second(folder: Path, trainee: Any) -> None:
-        save(folder, trainee)
-        if trainee.model.num_timesteps >= 512:
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr(crawl_training, "save_checkpoint", interrupt_after_the_second)
-    with pytest.raises(KeyboardInterrupt):
-        train.main([*flags, str(tmp_path / "halves")])
-    monkeypatch.undo()
-    train.main(["crawl", "--resume", "--out", str(tmp_path / "halves")])
-
-    assert finished(tmp_path / "whole")["steps"] == finished(tmp_path / "halves")["steps"] == 1024
-    assert finished(tmp_path / "halves")["resumed_at_step"] == 512
-    assert finished(tmp_path / "whole")["curve"] == finished(tmp_path / "halves")["curve"]
-    for one, other in zip(weights(tmp_path / "whole"), weights(tmp_path / "halves"), strict=True):
-        np.testing.assert_array_equal(one, other)
-    assert list((tmp_path / "whole" / "seed-3" / "tensorboard").iterdir())
-
-
-def test_seeds_side_by_side_end_as_one_after_the_other(config: Path, tmp_path: Path) -> None:
-    flags = ["crawl", "--config", str(config), "--steps", "256", "--seeds", "3", "4"]
-    for workers in ("1", "2"):
-        train.main([*flags, "--workers", workers, "--out", str(tmp_path / workers)])
-    for one, other in zip(weights(tmp_path / "1"), weights(tmp_path / "2"), strict=True):
-        np.testing.assert_array_equal(one, other)
-
-
-def test_soft_actor_critic_trains_and_goes_on(tmp_path: Path) -> None:
-    config = tmp_path / "sac.toml"
-    config.write_text(
-        '[run]\nalgorithm = "sac"\nnum_envs = 4\nsteps = 80\nseeds = [0]\ncheckpoint_steps = 40\n'
-        "[policy]\nhidden = [8]\n[algorithm]\nbuffer_size = 200\nlearning_starts = 16\nbatch_size = 16\n"
-    )
-    out = tmp_path / "sac"
-    train.main(["crawl", "--config", str(config), "--out", str(out)])
-    assert json.loads((out / "seed-0" / "finished.json").read_text())["steps"] == 80
-    assert all(
-        (path / "replay.pkl").exists() for path in complete_checkpoints(out / "seed-0" / "checkpoints")
-    )
 
 
 def test_comparison_writes_everything_and_keeps_its_stages(
@@ -207,49 +76,8 @@ def test_comparison_writes_everything_and_keeps_its_stages(
         evaluate.main(["--budget", "small", "--out", str(out)])
 
 
-@pytest.mark.parametrize(
-    ("flags", "sentence"),
-    [
-        (["crawl", "--bad"], "--bad"),
-        (["crawl", "--algorithm", "dqn"], "'dqn'"),
-        (["crawl", "--num-envs", "0"], "num_envs is 0"),
-        (["crawl", "--seeds", "1", "1"], "seeds are"),
-        (["crawl", "--randomise-magnets", "2"], "between 0 and 1"),
-        (["crawl", "--randomise-parameters", "1"], "between 0 and 0.9"),
-        (["crawl", "--config", "nowhere.toml"], "no readable file nowhere.toml"),
-        (["crawl", "--resume", "--out", "nowhere"], "no training to go on with"),
-        (["crawl", "--workers", "0"], "'0' is not a whole number"),
-        (["fly"], "'fly'"),
-    ],
-)
-def test_training_names_the_mistake(flags: list[str], sentence: str) -> None:
-    with pytest.raises(UsageError) as mistake:
-        train.main(flags)
-    assert sentence in str(mistake.value)
-    assert "\n" not in str(mistake.value)
-
-
-def test_training_refuses_to_mix_runs(config: Path, tmp_path: Path) -> None:
-    out = tmp_path / "run"
-    out.mkdir()
-    (out / "settings.json").write_text(json.dumps(settings_from({}).to_json()))
-    with pytest.raises(UsageError, match="holds a training already"):
-        train.main(["crawl", "--config", str(config), "--out", str(out)])
-    with pytest.raises(UsageError, match="started with num_envs 256"):
-        train.main(["crawl", "--resume", "--num-envs", "8", "--out", str(out)])
-    assert read_saved_settings(out / "settings.json") == settings_from({})
-
-
 def test_broken_settings_are_named(tmp_path: Path) -> None:
     path = tmp_path / "broken.toml"
-    for text, sentence in (
-        ("a = [", "is not TOML"),
-        ("[fly]", r"unknown table \[fly\]"),
-        ("[run]\nwings = 2", "unknown setting 'wings'"),
-    ):
-        path.write_text(text)
-        with pytest.raises(UsageError, match=sentence):
-            train.main(["crawl", "--config", str(path)])
     for text, sentence in (("[sweep]\nspeed = 3", "'speed'"), ("[final]\nstarts = -1", "starts is -1")):
         path.write_text(text)
         with pytest.raises(UsageError, match=sentence):
@@ -259,7 +87,6 @@ def test_broken_settings_are_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("program", "flags"),
     [
-        ("train.py", ["crawl", "--scene", "nothing", "--out", "nowhere"]),
         ("evaluate.py", ["--budget", "huge"]),
     ],
 )

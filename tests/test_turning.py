@@ -13,15 +13,15 @@ pytest.importorskip("matplotlib")
 from magworm_gym import MagWormVectorEnv, Scene, load_scene
 from magworm_gym.learning import (
     demonstration,
-    train,
 )
 from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.compare import evaluate_goals
 from magworm_gym.learning.compare.goal_report import table, verdict
-from magworm_gym.learning.compare.goal_search import SearchSize, score_of, searched
+from magworm_gym.learning.compare.goal_search import SearchSize, score_of
 from magworm_gym.learning.compare.goal_trials import Flight, fly
-from magworm_gym.learning.compare.pilots import FAMILIES, PARK, Cycle, Learned, Steered
+from magworm_gym.learning.compare.pilots import FAMILIES, PARK, Cycle, Steered
 from magworm_gym.learning.settings import CONFIGS, read_settings
+from magworm_gym.learning.train import ENVIRONMENTS
 
 TINY = """
 [training]
@@ -133,54 +133,6 @@ def test_a_comparison_leaves_a_report_and_is_not_done_twice(
         evaluate_goals.main([task, "--budget", "smoke", "--out", str(out)])
 
 
-def test_a_policy_begins_as_a_copy_of_its_teacher(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(demonstration, "SEARCH", SHORT)
-    monkeypatch.setattr(demonstration, "STEPS", 120)
-    monkeypatch.setattr(demonstration, "EPOCHS", 300)
-    config, out = tmp_path / "taught.toml", tmp_path / "run"
-    config.write_text(
-        "[run]\nscene = 'turn-3-pair'\nnum_envs = 8\nsteps = 8\nseeds = [0]\nepisode_steps = 60\n"
-        "[policy]\nnormalise = true\nlog_std_init = -1.0\nteacher = 'pair'\n"
-        "[learning_rate]\nstart = 1e-9\nend = 1e-9\n[algorithm]\nn_steps = 8\n"
-    )
-    train.main(["turn", "--config", str(config), "--out", str(out)])
-    taught = json.loads((out / "seed-0" / "taught.json").read_text())
-    assert taught["steps"] == 120 * 8 + 8 * 10  # shown, and searched: eight trials of ten steps
-    scene = Scene.preset("turn-3-pair")
-    family = FAMILIES["pair"]
-    found = searched(scene, "turn", family, SHORT, 0)
-    teacher = Steered([family.cycle(np.array(found["parameters"]), scene.stage_limits or {})])
-    worms = MagWormVectorEnv(8, scene, task="turn")
-    observations, _ = worms.reset(seed=5)
-    teacher.start(worms)
-    copy = Learned(out / "seed-0" / "policy", "ppo")
-    wrong, size = [], []
-    for _ in range(30):
-        wanted = teacher.act(observations)
-        wrong.append(np.square(copy.act(observations) - wanted).mean())
-        size.append(np.square(wanted - np.mean(wanted)).mean())
-        observations, *_ = worms.step(wanted)
-    assert np.mean(wrong) < 0.25 * np.mean(size)
-
-
-@pytest.mark.parametrize(
-    ("task", "extra", "sentence"),
-    [
-        ("turn", "teacher = 'owl'\nnormalise = true", "teacher is 'owl'"),
-        ("turn", "teacher = 'pair'", "a teacher goes with ppo"),
-        ("turn", "teacher = 'misaligned'\nnormalise = true", "another drive"),
-    ],
-)
-def test_teachers_that_do_not_fit_are_named(task: str, extra: str, sentence: str, tmp_path: Path) -> None:
-    config = tmp_path / "taught.toml"
-    config.write_text(
-        "[run]\nscene = 'turn-3-pair'\nnum_envs = 4\nsteps = 8\nseeds = [0]\n"
-        f"[policy]\n{extra}\n[algorithm]\nn_steps = 8\n"
-    )
-    with pytest.raises(UsageError, match=sentence):
-        train.main([task, "--config", str(config), "--out", str(tmp_path / "run")])
-
-
 def rows(**samples: list[float]) -> list[dict[str, object]]:
     return [
         {
@@ -210,14 +162,15 @@ def test_the_verdict_says_where_nobody_gets_there() -> None:
 
 def test_each_task_has_its_settings_and_scene() -> None:
     for task in ("turn", "reach"):
-        settings = read_settings(CONFIGS / f"{task}-ppo.toml", {})
-        assert settings.task == task and len(settings.seeds) >= 5
-        single = load_scene(settings.scene).with_values(
+        settings = read_settings(CONFIGS / "ppo.toml", ENVIRONMENTS[task], {})
+        assert len(settings.seeds) >= 5
+        single = load_scene("turn-3-pair").with_values(
             {"name": "turn-3", **dict(FAMILIES["misaligned"].edits)}
         )
         assert single == Scene.preset("turn-3")
         for budget in ("smoke", "small", "full"):
-            assert evaluate_goals.read_goal_budget(task, budget).training.task == task
+            trained = evaluate_goals.read_goal_budget(task, budget).training
+            assert trained.environment_id == ENVIRONMENTS[task]
 
 
 @pytest.mark.parametrize(
@@ -234,15 +187,3 @@ def test_broken_budgets_are_named(text: str, sentence: str, tmp_path: Path) -> N
     path.write_text(text)
     with pytest.raises(UsageError, match=sentence):
         evaluate_goals.read_goal_budget("turn", str(path))
-
-
-def test_a_training_of_another_task_is_not_resumed(tmp_path: Path) -> None:
-    tiny = tmp_path / "tiny.toml"
-    tiny.write_text(
-        "[run]\nscene = 'turn-3'\nnum_envs = 4\nsteps = 64\nseeds = [0]\n[algorithm]\nn_steps = 8\n"
-    )
-    out = tmp_path / "run"
-    train.main(["turn", "--config", str(tiny), "--out", str(out)])
-    assert json.loads((out / "settings.json").read_text())["task"] == "turn"
-    with pytest.raises(UsageError, match="started with task 'turn'"):
-        train.main(["reach", "--resume", "--out", str(out)])

@@ -12,7 +12,7 @@ INTERRUPTED = 130
 
 
 class UsageError(Exception):
-    """A mistake in flags or files that the user can mend; the message is one sentence."""
+    """A mistake in flags, settings or files that the user can mend; the message is one sentence."""
 
 
 def positive(text: str) -> int:
@@ -36,16 +36,25 @@ def run(program: str, main: Callable[[list[str]], None]) -> NoReturn:
 
     Args:
         program: Name in front of a message.
-        main: Takes the arguments without the program's name.
+        main: Takes the arguments without the program's name. Where it raises KeyboardInterrupt with a
+            message, that says how to go on.
     """
+    status = 0
     try:
         main(sys.argv[1:])
-    except (UsageError, SceneError, ImportError) as mistake:
-        if isinstance(mistake, ImportError) and "pip install" not in str(mistake):
+    except KeyboardInterrupt as interruption:
+        message, status = f"stopped; {interruption or 'what was complete is kept'}", INTERRUPTED
+    except (UsageError, SceneError) as mistake:
+        message, status = str(mistake), MISTAKE
+    except ImportError as missing:
+        if "pip install" not in str(missing):
             raise
-        print(f"{program}: {mistake}", file=sys.stderr)
-        sys.exit(MISTAKE)
-    except KeyboardInterrupt:
-        print(f"{program}: stopped; what was complete is kept", file=sys.stderr)
-        sys.exit(INTERRUPTED)
-    sys.exit(0)
+        message, status = str(missing), MISTAKE
+    except OSError as error:  # a full disk, a folder that may not be written
+        message, status = (
+            f"{error.filename or 'a file'}: {error.strerror}; what was complete is kept",
+            MISTAKE,
+        )
+    if status:
+        print(f"{program}: {message}", file=sys.stderr)
+    sys.exit(status)

@@ -5,16 +5,14 @@ from typing import Any
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from stable_baselines3 import PPO
 
-from magworm_gym import Scene
-from magworm_gym.learning.checkpoints import Trainee, statistics
 from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.compare.goal_search import SearchSize, searched
-from magworm_gym.learning.compare.pilots import FAMILIES, Steered
-from magworm_gym.learning.settings import TrainingSettings
+from magworm_gym.learning.compare.pilots import FAMILIES, Family, Steered
+from magworm_gym.learning.sb3 import Sb3Learner, statistics
 from magworm_gym.sb3 import MagWormSB3VecEnv
 
+TASKS = ("turn", "reach")
 SEARCH = SearchSize(seeds=1, scouts=128, population=16, generations=10, starts=2, duration_s=5.0)
 """How the teacher is found: the search that the small budget gives a rival."""
 STEPS = 200
@@ -28,46 +26,44 @@ VALUE_WEIGHT = 0.5
 LEAST_VARIANCE = 1e-4
 
 
-def teach(
-    settings: TrainingSettings, scene: Scene, trainee: Trainee, robots: MagWormSB3VecEnv, seed: int
-) -> int:
+def family_of(learner: Sb3Learner) -> Family:
+    """The family of cycles in which a learner's teacher is searched.
+
+    Raises:
+        UsageError: Its settings do not go with a teacher.
+    """
+    name, worms = learner.options.teacher, learner.robots.worms
+    if name not in FAMILIES:
+        raise UsageError(f"teacher is {name!r}; allowed: {', '.join(FAMILIES)}")
+    if learner.normalisation is None or worms.task.name not in TASKS:
+        raise UsageError(f"teacher is {name!r}; allowed with normalise = true for {' and '.join(TASKS)}")
+    if FAMILIES[name].scene(worms.scene) != worms.scene:
+        raise UsageError(f"teacher is {name!r}; allowed with its own drive, not that of {worms.scene.name!r}")
+    return FAMILIES[name]
+
+
+def teach(learner: Sb3Learner) -> int:
     """Searches a teacher, lets it act and fits policy, value and normalisation to what was seen.
 
     Args:
-        settings: Settings of the training; ``policy["teacher"]`` names one of ``pilots.FAMILIES``.
-        scene: Scene of the training.
-        trainee: A fresh training with PPO and normalised observations.
-        robots: Its environments without the normalisation.
-        seed: Seed of search, disturbances and order.
+        learner: PPO before its first round.
 
     Returns:
         Environment steps that this took, search included.
-
-    Raises:
-        UsageError: The settings do not go with a teacher.
     """
-    name, model, normalisation = settings.policy["teacher"], trainee.model, trainee.normalisation
-    if name not in FAMILIES:
-        raise UsageError(f"teacher is {name!r}; allowed: {', '.join(FAMILIES)}")
-    if not isinstance(model, PPO) or normalisation is None or settings.task == "crawl":
-        raise UsageError("a teacher goes with ppo, normalise = true and the tasks turn and reach")
-    family = FAMILIES[name]
-    if family.scene(scene) != scene:
-        raise UsageError(f"the teacher {name!r} has another drive than scene {scene.name!r}")
-    found = searched(scene, settings.task, family, SEARCH, seed)
+    robots, normalisation, seed = learner.robots, learner.normalisation, learner.place.seed
+    assert normalisation is not None, "a learner with a teacher has statistics"
+    family, scene = family_of(learner), robots.worms.scene
+    found = searched(scene, robots.worms.task.name, family, SEARCH, seed)
     cycle = family.cycle(np.array(found["parameters"]), scene.stage_limits or {})
-    seen, actions, returns = _shown(
-        robots, Steered([cycle]), seed, float(settings.options.get("gamma", 0.99))
-    )
+    seen, actions, returns = _shown(robots, Steered([cycle]), seed, learner.options.gamma)
     of_observations, of_returns = statistics(normalisation)
     of_observations.mean = seen.mean(axis=0, dtype=np.float64)
     of_observations.var = seen.var(axis=0, dtype=np.float64) + LEAST_VARIANCE
     of_returns.mean, of_returns.var = np.array(returns.mean()), np.array(returns.var())
     of_observations.count = of_returns.count = float(len(seen))
     values = returns / np.sqrt(returns.var() + normalisation.epsilon)
-    _fit(model, np.asarray(normalisation.normalize_obs(seen)), actions, values)
-    # New episodes: the robots stand where the teacher left them.
-    normalisation.reset()
+    _fit(learner.model, np.asarray(normalisation.normalize_obs(seen)), actions, values)
     search_steps: int = round(found["simulated_s"] / scene.control_step_s)
     return len(seen) + search_steps
 
@@ -97,7 +93,7 @@ def _shown(
     return np.concatenate(seen), np.concatenate(wanted).astype(np.float32), returns.ravel()
 
 
-def _fit(model: PPO, seen: NDArray[Any], actions: NDArray[Any], values: NDArray[Any]) -> None:
+def _fit(model: Any, seen: NDArray[Any], actions: NDArray[Any], values: NDArray[Any]) -> None:
     """Least squares of the mean action and of the value."""
     policy = model.policy
     inputs, targets = torch.as_tensor(seen, dtype=torch.float32), torch.as_tensor(actions)

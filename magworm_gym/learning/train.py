@@ -1,151 +1,179 @@
 """Trains drive-magnet controllers: ``python training/train.py crawl --help``."""
 
 import argparse
+import shlex
+import sys
+from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from magworm_gym import Scene, load_scene
+from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID
 from magworm_gym.atomic_files import write_json, write_text
 from magworm_gym.learning.command_line import Parser, UsageError, positive
-from magworm_gym.learning.settings import (
-    ALGORITHMS,
-    CONFIGS,
-    UNITS,
-    TrainingSettings,
-    read_saved_settings,
-    read_settings,
-)
-from magworm_gym.tasks import task_of
+from magworm_gym.learning.owner import owned
+from magworm_gym.learning.settings import TrainingSettings, merged, read_saved_settings, read_settings
 
-PURPOSES = {
-    "crawl": "crawl towards the head as fast as possible",
-    "turn": "turn to a heading and stay there",
-    "reach": "crawl to a point",
-}
-
+ENVIRONMENTS = {"crawl": CRAWL_ID, "turn": TURN_ID, "reach": REACH_ID}
+"""Words for the environments of the package."""
 SETTINGS = "settings.json"
 SCENE = "scene.toml"
 
 
-def main(arguments: list[str]) -> None:
+def main(arguments: list[str], configs: Path | None = None) -> None:
     """Reads the command line and trains.
 
     Args:
         arguments: Command line without the program's name.
+        configs: Folder with a file of settings for each algorithm, ``ppo.toml`` and so on; None for none.
 
     Raises:
         UsageError: A flag, a setting or a folder is not usable.
         SceneError: The scene cannot be simulated.
+        KeyboardInterrupt: Ctrl-C; the message says how to go on.
     """
     flags = _parser().parse_args(arguments)
-    out = Path(flags.out or f"runs/{flags.task}")
-    settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags)
+    modules = []
+    for name in ("environment", "algorithm"):
+        module, _, given = (getattr(flags, name) or "").rpartition(":")
+        if module:
+            setattr(flags, name, given)
+            modules.append(module)
+            _import(module)
+    out = Path(flags.out or f"runs/{flags.environment.rpartition('/')[2]}")
+    settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags, configs)
     if not flags.resume and (out / SETTINGS).exists():
         raise UsageError(
             f"{out} holds a training already: add --resume to go on with it, or choose another --out"
         )
-    summaries = train(settings, out, flags.workers)
+    try:
+        summaries = train(settings, out, flags.workers, modules)
+    except KeyboardInterrupt:
+        words = [Path(sys.executable).name, sys.argv[0], *arguments, *["--resume"] * (not flags.resume)]
+        raise KeyboardInterrupt(f"this goes on from the newest checkpoint: {shlex.join(words)}") from None
     for summary in summaries:
-        speed = 1000.0 * summary["curve"][-1][1] if summary["curve"] else 0.0
-        print(
-            f"seed {summary['seed']}: {summary['steps']} steps, {speed:.1f} {UNITS[settings.task]} "
-            "while exploring"
-        )
+        reward = summary["curve"][-1][1] if summary["curve"] else 0.0
+        found = f"{summary['steps']} steps, {reward:.1f} {summary['curve_unit']} while exploring"
+        print(f"seed {summary['seed']}: {found}")
     print(f"policies are in {out}/seed-*/policy")
 
 
-def train(settings: TrainingSettings, out: Path, workers: int | None = None) -> list[dict[str, Any]]:
+def train(
+    settings: TrainingSettings, out: Path, workers: int | None = None, modules: Sequence[str] = ()
+) -> list[dict[str, Any]]:
     """Trains every seed into a folder, going on where an earlier run stopped.
+
+    Settings are tried, and environments and learner made once, before the folder is touched.
 
     Args:
         settings: Settings of the training.
         out: Folder of the run; settings and scene are kept in it.
         workers: Seeds trained side by side; None for the number of cores.
+        modules: What a process imports first, to register environments and learners.
 
     Returns:
-        One summary for each seed, see ``crawl_training.train_seed``.
+        One summary for each seed, see :func:`~magworm_gym.learning.training.train_seed`.
+
+    Raises:
+        UsageError: A setting is not usable, or another process is at work in the folder.
+        SceneError: The scene cannot be simulated.
     """
     from magworm_gym.learning.seeds import default_workers, train_seeds
+    from magworm_gym.learning.training import new_learner, place_of
 
-    kept_scene = out / SCENE
-    scene = (
-        Scene.from_toml(kept_scene.read_text("utf-8")) if kept_scene.exists() else load_scene(settings.scene)
-    )
-    if not scene.controlled:
-        raise UsageError(f"scene {settings.scene!r} has no drive that a policy could control")
-    out.mkdir(parents=True, exist_ok=True)
-    write_text(kept_scene, scene.to_toml())
-    write_json(out / SETTINGS, settings.to_json())
-    return train_seeds(settings, scene, out, workers or default_workers())
+    texts = _kept_scenes(out)
+    place = place_of(settings, texts, settings.seeds[0])
+    scenes = place.native().scenes
+    if not scenes[0].controlled:
+        raise UsageError(f"scene {scenes[0].name!r} has no drive that a policy could control")
+    new_learner(settings, place, out)
+    with owned(out):
+        if not texts:
+            texts = [scene.to_toml() for scene in scenes]
+            for number, text in enumerate(texts):
+                write_text(out / (f"scene_{number:03d}.toml" if number else SCENE), text)
+            write_json(out / SETTINGS, settings.to_json())
+        return train_seeds(settings, texts, out, workers or default_workers(), modules)
 
 
-def _new_settings(flags: argparse.Namespace) -> TrainingSettings:
-    """Settings of a file, of the task's own if it has one, with the flags on top."""
-    overrides = _overrides(flags)
-    if flags.config:
-        return read_settings(Path(flags.config), overrides)
-    algorithm = flags.algorithm or "ppo"
-    own = CONFIGS / f"{flags.task}-{algorithm}.toml"
-    if own.exists():
-        return read_settings(own, overrides)
-    scene = {"scene": str(task_of(flags.task).default_scene)}
-    return read_settings(CONFIGS / f"{algorithm}.toml", scene | overrides)
+def _kept_scenes(out: Path) -> list[str]:
+    """The scenes that a run has kept, in TOML: a preset may change meanwhile."""
+    begun = (out / SETTINGS).exists()  # they are written last
+    return [path.read_text("utf-8") for path in sorted(out.glob("scene*.toml"))] if begun else []
+
+
+def _new_settings(flags: argparse.Namespace, configs: Path | None) -> TrainingSettings:
+    """Settings of a file, or of the folder's file for the algorithm, with the flags on top."""
+    changes = _changes(flags)
+    file = configs / f"{flags.algorithm or 'ppo'}.toml" if configs else None
+    path = Path(flags.config) if flags.config else file if file and file.exists() else None
+    return read_settings(path, _identifier(flags), changes)
 
 
 def _resumed_settings(flags: argparse.Namespace, out: Path) -> TrainingSettings:
     """The settings that the run was started with; a flag may repeat them, not change them."""
     settings = read_saved_settings(out / SETTINGS)
     kept = settings.to_json()
-    for name, value in _overrides(flags).items():
-        if kept[name] != value:
+    for name, value in {**_changes(flags), "environment_id": _identifier(flags)}.items():
+        if merged(kept, {name: value}) != kept:
             raise UsageError(
                 f"{out} was started with {name} {kept[name]!r}; --resume cannot change it to {value!r}"
             )
     return settings
 
 
-def _overrides(flags: argparse.Namespace) -> dict[str, Any]:
-    names = ["task", "algorithm", "scene", "num_envs", "steps", "seeds"]
-    names += ["checkpoint_steps", "removed_share", "parameter_spread"]
-    return {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
+def _identifier(flags: argparse.Namespace) -> str:
+    return ENVIRONMENTS.get(flags.environment) or str(flags.environment)
+
+
+def _changes(flags: argparse.Namespace) -> dict[str, Any]:
+    """What the flags change in the settings."""
+    names = ["algorithm", "num_envs", "steps", "seeds", "checkpoint_steps"]
+    changes = {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
+    randomise = {"removed": flags.removed, "parameters": flags.parameters}
+    environment = {
+        "scene": flags.scene,
+        "randomise": {name: value for name, value in randomise.items() if value is not None} or None,
+    }
+    given = {name: value for name, value in environment.items() if value is not None}
+    return {**changes, **({"environment": given} if given else {})}
+
+
+def _import(module: str) -> None:
+    try:
+        import_module(module)
+    except ImportError as error:
+        raise UsageError(f"module {module!r} cannot be imported: {error}") from None
 
 
 def _parser() -> Parser:
-    parser = Parser(prog="train.py", description="Trains drive-magnet controllers.")
-    tasks = parser.add_subparsers(dest="task", required=True, metavar="TASK", parser_class=Parser)
-    for name, purpose in PURPOSES.items():
-        task = tasks.add_parser(
-            name,
-            help=purpose,
-            description=f"Trains policies that {purpose}. Flags override the table [run] of the settings "
-            "file.",
-        )
-        _add_flags(task, str(task_of(name).default_scene))
-    return parser
-
-
-def _add_flags(parser: Parser, scene: str) -> None:
-    add = parser.add_argument
-    add("--algorithm", choices=ALGORITHMS, help="learning algorithm (default: ppo)")
-    add(
-        "--config",
-        metavar="FILE",
-        help="settings (default: those of task and algorithm in training/configs/)",
+    parser = Parser(
+        prog="train.py", description="Trains drive-magnet controllers. Flags override the settings file."
     )
-    add("--scene", help=f"preset or path of a TOML file (default: {scene})")
+    add = parser.add_argument
+    add(
+        "environment",
+        metavar="ENVIRONMENT",
+        help="crawl (towards the head as fast as possible), turn (to a heading, and stay there), reach (a "
+        "point), or an identifier such as MagWorm/Turn-v0; module:identifier imports what registers it",
+    )
+    add("--algorithm", metavar="NAME", help="ppo, sac, or module:name of another learner (default: ppo)")
+    add("--config", metavar="FILE", help="settings (default: those of the algorithm in training/)")
+    add("--scene", help="preset or path of a TOML file (default: the environment's)")
     add("--num-envs", type=int, metavar="N", help="environments in the batch")
     add("--steps", type=int, metavar="N", help="environment steps of each seed")
     add("--seeds", type=int, nargs="+", metavar="SEED", help="one policy for each seed")
     add("--checkpoint-steps", type=int, metavar="N", help="environment steps between checkpoints")
-    randomise = parser.add_argument_group("robots that differ, so that a policy survives damage")
-    randomise.add_argument(
-        "--randomise-magnets", dest="removed_share", type=float, metavar="SHARE",
-        help="share of environments whose robot lacks magnets (three are left at least)",
+    randomise = parser.add_argument_group("robots that differ, so that a policy survives damage").add_argument
+    randomise(
+        "--randomise-magnets", dest="removed", type=float, metavar="SHARE",
+        help="share of episodes whose robot lacks magnets (three are left at least)",
     )  # fmt: skip
-    randomise.add_argument(
-        "--randomise-parameters", dest="parameter_spread", type=float, metavar="SPREAD",
+    randomise(
+        "--randomise-parameters", dest="parameters", type=float, metavar="WIDTH",
         help="stiffness, friction and so on differ by up to this share",
     )  # fmt: skip
     add("--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)")
-    add("--out", metavar="FOLDER", help="folder of the run (default: runs/TASK)")
-    add("--resume", action="store_true", help="go on from the last complete checkpoint of --out")
+    add("--out", metavar="FOLDER", help="folder of the run (default: runs/ENVIRONMENT)")
+    add("--resume", action="store_true", help="go on from the newest checkpoint of --out")
+    return parser

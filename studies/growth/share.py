@@ -128,14 +128,17 @@ def share(case: Case) -> Share:
 
 def trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
     """Environment steps, wall time and the part of it within steps [s], after a rollout to warm up."""
-    settings: dict[str, Any] = msgspec.toml.decode(SETTINGS.read_bytes())
+    settings: dict[str, Any] = msgspec.toml.decode(SETTINGS.read_bytes())["default"]
     torch.set_num_threads(1)  # the network is small: a second thread waits more than it computes
     set_random_seed(0)
-    environments = kind(ENVIRONMENTS, case.scene, settings["run"]["episode_steps"], task=case.task)
+    episode_steps = settings["environment"]["max_episode_steps"]
+    environments = kind(ENVIRONMENTS, case.scene, episode_steps, task=case.task)
     environments.seed(0)
-    algorithm = settings["algorithm"]
+    algorithm = settings["learner"]
     normalised: VecEnv = VecNormalize(environments, gamma=algorithm["gamma"])
-    network = {"net_arch": settings["policy"]["hidden"], "log_std_init": settings["policy"]["log_std_init"]}
+    network = {"net_arch": algorithm.pop("hidden"), "log_std_init": algorithm.pop("log_std_init")}
+    for name in ("activation", "normalise", "learning_rate"):
+        del algorithm[name]
     model = PPO("MlpPolicy", normalised, policy_kwargs=network, device="cpu", **algorithm)
     rollout = ENVIRONMENTS * algorithm["n_steps"]
     model.learn(rollout)

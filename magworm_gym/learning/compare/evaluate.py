@@ -113,12 +113,14 @@ def _settings(folder: Path, budget: Budget, *, given: bool) -> TrainingSettings:
 
 def _training_text(settings: TrainingSettings, summaries: list[dict[str, Any]]) -> str:
     steps, simulated_s = summaries[0]["steps"], summaries[0]["simulated_s"]
+    randomise = settings.environment.get("randomise", {})
+    removed, parameters = randomise.get("removed", 0.0), randomise.get("parameters", 0.0)
     return (
         f"Learned policy: {settings.algorithm.upper()} (Stable-Baselines3), seeds "
         f"{', '.join(str(seed) for seed in settings.seeds)}, {steps} environment steps = {simulated_s:.0f} "
         f"simulated seconds for each, {settings.num_envs} environments, evaluated with its mean action. "
-        f"{settings.removed_share:.0%} of the training robots lack magnets where three are left, parameters "
-        f"spread by {settings.parameter_spread:.0%}."
+        f"{removed:.0%} of the training robots lack magnets where three are left, parameters "
+        f"spread by {parameters:.0%}."
     )
 
 

@@ -17,7 +17,7 @@ from magworm_gym.learning.settings import (
     read_settings,
     read_toml,
 )
-from magworm_gym.learning.train import SCENE, SETTINGS, train
+from magworm_gym.learning.train import ENVIRONMENTS, SCENE, SETTINGS, train
 
 if TYPE_CHECKING:
     from magworm_gym.learning.compare.goal_comparison import GoalComparison
@@ -123,8 +123,8 @@ def read_goal_budget(task: str, name: str) -> GoalBudget:
     unknown = sorted(tables.keys() - set(TABLES))
     if unknown:
         raise UsageError(f"budget {name!r} has the unknown table [{unknown[0]}]")
-    training = {**tables.get("training", {}), "task": task}
-    config = CONFIGS / training.pop("config", f"{task}-ppo.toml")
+    training = dict(tables.get("training", {}))
+    config = CONFIGS / training.pop("config", "ppo.toml")
     final = tables.get("final", {})
     search = tables.get("search", {})
     whole = {"seeds", "scouts", "population", "generations", "starts"}
@@ -140,7 +140,7 @@ def read_goal_budget(task: str, name: str) -> GoalBudget:
             number = isinstance(value, int if key in whole else int | float) and not isinstance(value, bool)
             if not number or value <= 0:
                 raise UsageError(f"[{title}] {key} is {value!r}; it must be a number above 0")
-    return GoalBudget(task, read_settings(config, training), search, FinalSize(**final))
+    return GoalBudget(task, read_settings(config, ENVIRONMENTS[task], training), search, FinalSize(**final))
 
 
 def _film(comparison: GoalComparison, out: Path) -> None:

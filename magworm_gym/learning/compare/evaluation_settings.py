@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from magworm_gym import CRAWL_ID
 from magworm_gym.baselines import Trial
 from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.settings import CONFIGS, TrainingSettings, read_settings, read_toml
@@ -116,9 +117,9 @@ def read_budget(name: str, scene: str | None) -> Budget:
     training = dict(tables.get("training", {}))
     config = CONFIGS / training.pop("config", "ppo.toml")
     if scene is not None:
-        training["scene"] = scene
+        training["environment"] = {**training.get("environment", {}), "scene": scene}
     return Budget(
-        read_settings(config, training),
+        read_settings(config, CRAWL_ID, training),
         _table(SweepBudget, "sweep", tables),
         _table(SearchBudget, "search", tables),
         _table(FinalBudget, "final", tables),

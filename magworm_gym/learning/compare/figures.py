@@ -80,7 +80,7 @@ def draw_learning_curves(path: Path, comparison: Comparison, results: list[Resul
         for number, summary in enumerate(comparison.policies.summaries):
             steps, speeds = np.array(summary["curve"]).reshape(-1, 2).T
             label = "learned policy, while exploring" if number == 0 else None
-            _smooth_line(axes, steps * step_s, MM_PER_M * speeds, COLOURS["learned policy"], label)
+            _smooth_line(axes, steps * step_s, speeds, COLOURS["learned policy"], label)
         for seed in range(comparison.budget.search.seeds):
             times, bests = np.array(comparison.stroke(seed, comparison.whole)["curve"]).T
             label = "CMA-ES stroke, best so far" if seed == 0 else None

@@ -17,7 +17,6 @@ from magworm_gym.learning.compare.goal_comparison import (
 )
 from magworm_gym.learning.compare.intervals import Interval, interval
 from magworm_gym.learning.compare.pilots import FAMILIES
-from magworm_gym.learning.settings import UNITS
 
 mpl.use("Agg")
 
@@ -43,6 +42,7 @@ DECISIVE = {
     "final_distance_mm": ("final distance", "mm"),
 }
 """What the verdict compares, the first that tells anything: less is better."""
+UNITS = {"turn": "°/s", "reach": "mm/s"}
 COLOURS = ("#1c8c7a", "#3b6fb6", "#7a5ca8", "#c25a1e", "#8a8a8a")
 
 
@@ -189,9 +189,7 @@ def draw(path: Path, comparison: GoalComparison, rows: list[Row]) -> None:
         done.legend(frameon=False)
         for summary in comparison.summaries:
             steps, rewards = np.array(summary["curve"]).reshape(-1, 2).T
-            learning.plot(
-                1e-3 * steps, 1e3 * rewards, color=COLOURS[0], lw=1.0, label=f"seed {summary['seed']}"
-            )
+            learning.plot(1e-3 * steps, rewards, color=COLOURS[0], lw=1.0, label=f"seed {summary['seed']}")
         learning.set_xlabel("thousand environment steps")
         learning.set_ylabel(f"reward while exploring [{UNITS[comparison.task]}]")
         part = path.with_name(f".part-{path.name}")
@@ -201,7 +199,7 @@ def draw(path: Path, comparison: GoalComparison, rows: list[Row]) -> None:
 
 
 def _taught(comparison: GoalComparison) -> str:
-    teacher = comparison.budget.training.policy.get("teacher")
+    teacher = comparison.budget.training.learner.get("teacher")
     if teacher is None:
         return ""
     return (
@@ -211,7 +209,7 @@ def _taught(comparison: GoalComparison) -> str:
 
 
 def _exploring(comparison: GoalComparison) -> str:
-    last = [1e3 * summary["curve"][-1][1] for summary in comparison.summaries if summary["curve"]]
+    last = [summary["curve"][-1][1] for summary in comparison.summaries if summary["curve"]]
     return f"{min(last):.2f} to {max(last):.2f}" if last else "an unknown number of"
 
 

@@ -64,7 +64,7 @@ class Learned:
     """
 
     def __init__(self, folder: Path, algorithm: str) -> None:
-        self._policy = LearnedController(folder, algorithm)
+        self._policy = LearnedController(folder)
 
     def start(self, worms: MagWormVectorEnv) -> None:
         """Nothing to prepare: the policy has no memory."""

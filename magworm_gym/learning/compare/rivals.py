@@ -120,4 +120,4 @@ def open_loop(scene: Scene, settings: dict[str, Any]) -> Rival:
 
 def learned(scene: Scene, folder: Path, algorithm: str) -> Rival:
     """A trained policy from its folder."""
-    return Rival("learned policy", scene, lambda: LearnedController(folder, algorithm))
+    return Rival("learned policy", scene, lambda: LearnedController(folder))
