@@ -1,15 +1,21 @@
 """Claims about curves: what they ask, what they cost, when they are met."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from joint_problems import REPOSITORY, curve, of, paths
 
-from magworm_gym.identification.claims import KINDS, Claim, Curve
+from magworm_gym.identification.claim_kinds import KINDS
+from magworm_gym.identification.claims import Claim, ClaimTable, Curve
 
 
-def claim(kind, *curves, other=None, amount=0.0, within=0.0, low=0.2, high=0.4):
+def claim(kind, *curves, other=None, amount=0.0, within=1e-12, low=0.2, high=0.4):
     rows = tuple((each,) for each in curves)
-    return Claim("it", kind, rows, (other,) if other else (), low, high, amount, within, tolerance=1e-4)
+    entries = {KINDS[kind].amount: amount, **({"than": "b.stride_m"} if other else {})}
+    entries |= {"within": within} if KINDS[kind].exact else {}
+    table = ClaimTable("it", kind, 1e-4, curve="a.stride_m", over_m_s=(low, high), **entries)
+    return Claim(table, rows, (other,) if other else (), 1e-4, True)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +70,7 @@ def test_a_curve_peaks_within_a_range_and_keeps_steady():
 
 
 def test_the_mean_of_two_curves_is_over_conditions_too():
-    both = Claim("it", "at_least", ((curve("a", 2), curve("b", 2)),), (), 0.2, 0.4, 0.0, 0.0, 1e-4)
+    both = replace(claim("at_least"), curves=((curve("a", 2), curve("b", 2)),))
     recordings = {**of(paths([1.0, 3.0], [0.0, 0.0], [1.0, 1.0]), "a"), **of(paths(*[[4.0, 4.0]] * 3), "b")}
     assert both.means(recordings) == pytest.approx(np.array([[3.0, 2.0, 2.5]]))
 

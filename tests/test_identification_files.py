@@ -60,10 +60,10 @@ def test_tracks_of_deeplabcut_are_read_with_gaps(tmp_path):
         ),
         (
             HEADER.replace("likelihood", "z") + "0,1,2,3\n",
-            "coords of 'head' are 'z' in column 4; allowed: x",
+            "coordinates 'z' of 'head'; allowed: x",
         ),
-        (HEADER.replace("x,", "likelihood_,") + "0,1,2,3\n", "coords of 'head' are 'likelihood_'"),
-        (HEADER.replace("x,y", "y,x_ens_median") + "0,1,2,3\n", "lacks x of body part 'head'"),
+        (HEADER.replace("x,", "likelihood_,") + "0,1,2,3\n", "coordinates 'likelihood_' of 'head'"),
+        (HEADER.replace("x,y", "y,x_ens_median") + "0,1,2,3\n", "lacks 'x' of body part 'head'"),
     ],
 )
 def test_another_form_of_tracks_is_refused_with_line_and_column(tmp_path, text, message):

@@ -1,117 +1,31 @@
-"""Claims as they stand in a problem file."""
+"""Claims as they stand in a problem file, and the curves that they name."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal
 
-from msgspec import Meta
-
-from magworm_gym.documents import Number, Table, Text
-from magworm_gym.identification.claims import KINDS, Claim, Curve, curve_of
-from magworm_gym.identification.experiment_file import Tolerance
+from magworm_gym.identification.claims import Claim, ClaimTable, Curve, curve_of
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.quantities import MEASURES, named_quantity
 from magworm_gym.identification.sweep import Sweep
 
-NAMES = "sweep.quantity, sweep.quantity.magnet, or a list of them"
-RANGE = "[lowest, highest] speed, or at_m_s in its place"
-OF_KINDS = {
-    "curve": NAMES,
-    "curves": NAMES,
-    "than": NAMES,
-    "value": "a number",
-    "by": "a number",
-    "within": "a number",
-}
-"""Entries that some kinds need and others do not have, and what they allow."""
-
-LEAST_BAND = 1e-12
-
-Names = Annotated[str | list[str], Meta(description=NAMES)]
-
-
-class ClaimTable(Table, frozen=True):
-    """A claim, see :class:`Claim`; which of its entries there are hangs on its kind."""
-
-    name: Text
-    kind: Literal[
-        "value", "longest", "at_least", "at_most", "some_at_least", "rises", "falls", "greater", "differs",
-        "nearly_equal", "peaks", "steady",
-    ]  # fmt: skip
-    scale: Tolerance
-    curve: Names | None = None
-    curves: Names | None = None
-    than: Names | None = None
-    at_m_s: Number | None = None
-    over_m_s: Annotated[tuple[Number, Number], Meta(description=RANGE)] | None = None
-    value: Number | None = None
-    by: Number | None = None
-    within: Number | None = None
-    group: Text | None = None
-    fit: bool = True
-
-    def __post_init__(self) -> None:
-        """Refuses entries that do not go with its kind, and what is missing of them."""
-        kind = KINDS[self.kind]
-        curve = "curves" if kind.many and self.curves is not None else "curve"
-        needed = {curve, kind.amount, *["within"] * kind.exact, *["than"] * kind.compares}
-        for name, allowed in OF_KINDS.items():
-            value = getattr(self, name)
-            if value in (None, "", []) and name in needed - {"by"}:
-                raise ValueError(f"{name} is missing; allowed: {allowed}")
-            if value is not None and name not in needed:
-                others = ", ".join(sorted(needed))
-                raise ValueError(f"{name} is not a setting of kind {self.kind!r}; allowed here: {others}")
-        if kind.exact and (self.within or 0.0) < LEAST_BAND:
-            raise ValueError(f"within is {self.within}; allowed: a number from {LEAST_BAND:g}")
-        if (self.at_m_s is None) == (self.over_m_s is None) or self.range_m_s[0] > self.range_m_s[1]:
-            raise ValueError(f"over_m_s is {self.over_m_s}; allowed: {RANGE}")
-
-    @property
-    def range_m_s(self) -> tuple[float, float]:
-        """Least and greatest speed [m/s]."""
-        return self.over_m_s or (self.at_m_s or 0.0, self.at_m_s or 0.0)
-
-    @property
-    def amount(self) -> float:
-        """The number that goes with the kind."""
-        return float(getattr(self, KINDS[self.kind].amount) or 0.0)
-
 
 def read_claim(table: ClaimTable, where: str, sweeps: Mapping[str, Sweep]) -> Claim:
-    """Makes a claim.
-
-    Args:
-        table: Its table.
-        where: Its place in the file.
-        sweeps: Name of a sweep → sweep.
+    """The claim of a table that stands at a place of the file, about curves of sweeps by name.
 
     Raises:
         ProblemError: A curve that there is not, or a range without the speeds that the claim needs.
     """
-    kind, (low_m_s, high_m_s) = KINDS[table.kind], table.range_m_s
+    low_m_s, high_m_s = table.range_m_s
     if table.curves is None:
         rows = [_named(table.curve, f"{where}.curve", sweeps)]
     else:
         rows = [[curve] for curve in _named(table.curves, f"{where}.curves", sweeps)]
-    other = _named(table.than, f"{where}.than", sweeps) if kind.compares else []
+    other = _named(table.than, f"{where}.than", sweeps)
     if table.kind == "peaks":
         _check_peak(rows[0][0], low_m_s, high_m_s, where)
     else:
         *rows, other = ([curve.within(low_m_s, high_m_s) for curve in row] for row in (*rows, other))
     _check_speeds([curve for row in (*rows, other) for curve in row], where)
-    return Claim(
-        table.name,
-        table.kind,
-        tuple(map(tuple, rows)),
-        tuple(other),
-        low_m_s,
-        high_m_s,
-        table.amount,
-        table.within or 0.0 if kind.exact else 0.0,
-        table.scale,
-        table.group or "",
-        table.fit,
-    )
+    return Claim(table, tuple(map(tuple, rows)), tuple(other), table.scale, table.fit)
 
 
 def _named(names: str | list[str] | None, where: str, sweeps: Mapping[str, Sweep]) -> list[Curve]:

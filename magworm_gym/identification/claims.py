@@ -2,21 +2,84 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from msgspec import Meta
 
+from magworm_gym.documents import Number, Table, Text
+from magworm_gym.identification.claim_kinds import KINDS, Told
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.sweep import Sweep
-from magworm_gym.identification.targets import Aim, Recordings
+from magworm_gym.identification.targets import Aim, Recordings, Tolerance
 from magworm_gym.recording import Floats
 
 MOST_NAMES = 4
 """Most curves that are named one by one."""
 
-LEAST_M = 1e-6
-"""Strides shorter than this are no ground for a ratio [m]."""
+NAMES = "sweep.quantity, sweep.quantity.magnet, or a list of them"
+RANGE = "[lowest, highest] speed, or at_m_s in its place"
+OF_KINDS = {
+    "curve": NAMES,
+    "curves": NAMES,
+    "than": NAMES,
+    "value": "a number",
+    "by": "a number",
+    "within": "a number",
+}
+"""Entries that some kinds need and others do not have, and what they allow."""
+
+LEAST_BAND = 1e-12
+
+Names = Annotated[str | list[str], Meta(description=NAMES)]
+
+
+class ClaimTable(Table, frozen=True):
+    """A claim, see :class:`Claim`; which of its entries there are hangs on its kind."""
+
+    name: Text
+    kind: Literal[
+        "value", "longest", "at_least", "at_most", "some_at_least", "rises", "falls", "greater", "differs",
+        "nearly_equal", "peaks", "steady",
+    ]  # fmt: skip
+    scale: Tolerance
+    curve: Names | None = None
+    curves: Names | None = None
+    than: Names | None = None
+    at_m_s: Number | None = None
+    over_m_s: Annotated[tuple[Number, Number], Meta(description=RANGE)] | None = None
+    value: Number | None = None
+    by: Number | None = None
+    within: Number | None = None
+    group: Text | None = None
+    fit: bool = True
+
+    def __post_init__(self) -> None:
+        """Refuses entries that do not go with its kind, and what is missing of them."""
+        kind = KINDS[self.kind]
+        curve = "curves" if kind.many and self.curves is not None else "curve"
+        needed = {curve, kind.amount, *["within"] * kind.exact, *["than"] * kind.compares}
+        for name, allowed in OF_KINDS.items():
+            value = getattr(self, name)
+            if value in (None, "", []) and name in needed - {"by"}:
+                raise ValueError(f"{name} is missing; allowed: {allowed}")
+            if value is not None and name not in needed:
+                others = ", ".join(sorted(needed))
+                raise ValueError(f"{name} is not a setting of kind {self.kind!r}; allowed here: {others}")
+        if kind.exact and (self.within or 0.0) < LEAST_BAND:
+            raise ValueError(f"within is {self.within}; allowed: a number from {LEAST_BAND:g}")
+        if (self.at_m_s is None) == (self.over_m_s is None) or self.range_m_s[0] > self.range_m_s[1]:
+            raise ValueError(f"over_m_s is {self.over_m_s}; allowed: {RANGE}")
+
+    @property
+    def range_m_s(self) -> tuple[float, float]:
+        """Least and greatest speed [m/s]."""
+        return self.over_m_s or (self.at_m_s or 0.0, self.at_m_s or 0.0)
+
+    @property
+    def amount(self) -> float:
+        """The number that goes with the kind."""
+        return float(getattr(self, KINDS[self.kind].amount) or 0.0)
 
 
 @dataclass(frozen=True)
@@ -76,35 +139,23 @@ class Claim(Aim):
     """Something that is said of curves.
 
     Attributes:
-        title: What it is called.
-        kind: A key of :data:`KINDS`.
+        table: What a problem file says.
         curves: What it is about, cut to its speeds: K curves, each the mean of some.
         other: The curve that it is compared with where the kind asks for one, the mean of some.
-        low_m_s: Least speed of its range [m/s].
-        high_m_s: Greatest speed of its range [m/s].
-        amount: The number that goes with the kind, in the unit of the quantity, or as a ratio [1].
-        within: Deviation up to which a value counts as met; 0 for kinds with a bound.
-        tolerance: See :class:`Aim`; ``scale`` in a problem file.
-        group: Name of the group that it can be left out with.
+        tolerance: See :class:`Aim`; the table's scale.
         fitted: See :class:`Aim`.
     """
 
-    title: str
-    kind: str
+    table: ClaimTable
     curves: tuple[tuple[Curve, ...], ...]
     other: tuple[Curve, ...]
-    low_m_s: float
-    high_m_s: float
-    amount: float
-    within: float
     tolerance: float
-    group: str = ""
-    fitted: bool = True
+    fitted: bool
 
     @property
     def name(self) -> str:
-        """Its title."""
-        return self.title
+        """What it is called."""
+        return self.table.name
 
     @property
     def sources(self) -> frozenset[str]:
@@ -114,12 +165,24 @@ class Claim(Aim):
     @property
     def asked(self) -> float | None:
         """The value, where the kind asks for one."""
-        return self.amount if self.within > 0.0 else None
+        return self.table.amount if KINDS[self.table.kind].exact else None
 
     @property
     def band(self) -> float:
         """How far a value may be off; nothing of a bound."""
-        return self.within / self.tolerance
+        return 0.0 if self.asked is None else (self.table.within or 0.0) / self.table.scale
+
+    @property
+    def wanted(self) -> str:
+        """Its curves and what is said of them."""
+        low_m_s, high_m_s = self.table.range_m_s
+        span = f"{low_m_s:g} to {high_m_s:g}" if high_m_s > low_m_s else f"{low_m_s:g}"
+        names = [" and ".join(map(str, row)) for row in self.curves]
+        curves = ", ".join(names) if len(names) <= MOST_NAMES else f"{names[0]} to {names[-1]}"
+        other = " and ".join(map(str, self.other))
+        kind, amount = KINDS[self.table.kind], self.table.amount
+        said = kind.words.format(amount=amount, within=self.table.within, other=other)
+        return f"{curves} {said} {span} m/s"
 
     def means(self, recordings: Recordings) -> Floats:
         """Its curves, averaged over conditions (K, S), in the unit of the quantity."""
@@ -127,33 +190,19 @@ class Claim(Aim):
 
     def compared(self, recordings: Recordings) -> tuple[float, Floats]:
         """The value that decides, and deviations (D,): 0 where a bound is kept."""
-        kind = KINDS[self.kind]
+        kind, (low_m_s, high_m_s) = KINDS[self.table.kind], self.table.range_m_s
         speeds_m_s = np.array(self.curves[0][0].speeds_m_s)
+        spreads = [_over_conditions(row, recordings, np.std, np.max) for row in self.curves if kind.spread]
         told = Told(
-            means=self.means(recordings),
+            means=np.array(spreads) if kind.spread else self.means(recordings),
             other=_over_conditions(self.other, recordings, np.mean, np.mean) if self.other else np.empty(0),
             speeds_m_s=speeds_m_s,
-            inside=(self.low_m_s <= speeds_m_s) & (speeds_m_s <= self.high_m_s),
-            amount=self.amount,
+            inside=(low_m_s <= speeds_m_s) & (speeds_m_s <= high_m_s),
+            amount=self.table.amount,
         )
-        if kind.spread:
-            spreads = [_over_conditions(row, recordings, np.std, np.max) for row in self.curves]
-            told = replace(told, means=np.array(spreads))
         margins = np.ravel(kind.margins(told))
         deviations = margins if kind.exact else np.minimum(margins, 0.0)
-        return float(kind.model(told)), deviations / self.tolerance
-
-    @property
-    def wanted(self) -> str:
-        """Its curves and what is said of them."""
-        span = f"{self.low_m_s:g}"
-        if self.high_m_s > self.low_m_s:
-            span += f" to {self.high_m_s:g}"
-        names = [" and ".join(map(str, row)) for row in self.curves]
-        curves = ", ".join(names) if len(names) <= MOST_NAMES else f"{names[0]} to {names[-1]}"
-        other = " and ".join(map(str, self.other))
-        said = KINDS[self.kind].words.format(amount=self.amount, within=self.within, other=other)
-        return f"{curves} {said} {span} m/s"
+        return float(kind.model(told)), deviations / self.table.scale
 
 
 def _over_conditions(
@@ -161,146 +210,3 @@ def _over_conditions(
 ) -> Floats:
     """A statistic over conditions of each curve, and one of those of all curves (S,)."""
     return np.asarray(of([over(curve.values(recordings), axis=1) for curve in curves], axis=0))
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a claim is judged by.
-
-    Attributes:
-        means: Curves, averaged over conditions (K, S), or their spreads, in the unit of the quantity.
-        other: The curve that they are compared with (S,).
-        speeds_m_s: Speeds (S,) [m/s].
-        inside: Which of them lie in the range (S,).
-        amount: The number that goes with the kind.
-    """
-
-    means: Floats
-    other: Floats
-    speeds_m_s: Floats
-    inside: NDArray[np.bool_]
-    amount: float
-
-    @property
-    def change(self) -> Floats:
-        """Last minus first value of each curve (K,)."""
-        return np.asarray(self.means[:, -1] - self.means[:, 0])
-
-    @property
-    def apart(self) -> float:
-        """Mean distance of the first curve from the other."""
-        return float(np.abs(self.means[0] - self.other).mean())
-
-
-@dataclass(frozen=True)
-class Kind:
-    """A kind of claim.
-
-    Attributes:
-        amount: Key of the number that goes with it.
-        words: What it says, as a format of ``amount``, ``within`` and ``other``.
-        model: The model's value that decides.
-        margins: Margins that must not be negative, of any shape; deviations where a value is asked for.
-        many: Whether it can be about several curves.
-        compares: Whether it is about another curve as well.
-        exact: Whether it asks for a value.
-        spread: Whether it is about the spread over conditions, in place of the mean.
-    """
-
-    amount: str
-    words: str
-    model: Callable[[Told], Any]
-    margins: Callable[[Told], Any]
-    many: bool = False
-    compares: bool = False
-    exact: bool = False
-    spread: bool = False
-
-
-KINDS = {
-    "value": Kind(
-        "value",
-        "is {amount:g} ± {within:g} at each speed of",
-        lambda t: t.means[0].mean(),
-        lambda t: t.means[0] - t.amount,
-        exact=True,
-    ),
-    "longest": Kind(
-        "value",
-        "has its greatest value at {amount:g} ± {within:g} over",
-        lambda t: t.means.max(),
-        lambda t: t.means.max() - t.amount,
-        exact=True,
-    ),
-    "at_least": Kind(
-        "value",
-        "is at least {amount:g} at each speed of",
-        lambda t: t.means.min(),
-        lambda t: t.means - t.amount,
-        many=True,
-    ),
-    "at_most": Kind(
-        "value",
-        "is at most {amount:g} at each speed of",
-        lambda t: t.means.max(),
-        lambda t: t.amount - t.means,
-        many=True,
-    ),
-    "some_at_least": Kind(
-        "value",
-        "is at least {amount:g} at some speed of",
-        lambda t: t.means.max(),
-        lambda t: t.means.max() - t.amount,
-        many=True,
-    ),
-    "rises": Kind(
-        "by",
-        "rises by at least {amount:g} over",
-        lambda t: t.change.min(),
-        lambda t: t.change - t.amount,
-        many=True,
-    ),
-    "falls": Kind(
-        "by",
-        "falls by at least {amount:g} over",
-        lambda t: t.change.max(),
-        lambda t: -t.change - t.amount,
-        many=True,
-    ),
-    "greater": Kind(
-        "by",
-        "exceeds {other} by at least {amount:g} at each speed of",
-        lambda t: (t.means - t.other).min(),
-        lambda t: t.means - t.other - t.amount,
-        compares=True,
-    ),
-    "differs": Kind(
-        "by",
-        "differs from {other} by at least {amount:g} in the mean over",
-        lambda t: t.apart,
-        lambda t: t.apart - t.amount,
-        compares=True,
-    ),
-    "nearly_equal": Kind(
-        "within",
-        "differ by at most {amount:g} of the least over",
-        lambda t: (t.means.max(axis=0) / np.maximum(t.means.min(axis=0), LEAST_M)).max() - 1.0,
-        lambda t: (1.0 + t.amount) * t.means.min(axis=0) - t.means.max(axis=0),
-        many=True,
-    ),
-    "peaks": Kind(
-        "by",
-        "is greatest, by at least {amount:g}, within",
-        lambda t: t.speeds_m_s[t.means[0].argmax()],
-        lambda t: t.means[0][t.inside].max() - t.means[0][~t.inside].max() - t.amount,
-    ),
-    "steady": Kind(
-        "value",
-        "has a spread over conditions of at most {amount:g} over",
-        lambda t: t.means.max(),
-        lambda t: t.amount - t.means,
-        many=True,
-        spread=True,
-    ),
-}
-"""Name in a problem file → kind."""

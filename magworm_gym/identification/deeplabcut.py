@@ -3,7 +3,6 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate
 from os import PathLike
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym.arguments import path_of
-from magworm_gym.identification.deeplabcut_h5 import is_hdf5, read_hdf5
+from magworm_gym.identification.deeplabcut_h5 import Frame, Label, is_hdf5, read_hdf5
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.sheet import Sheet, read_sheet
 from magworm_gym.recording import Floats
@@ -60,24 +59,6 @@ class Tracks:
         return np.asarray((track[:, 2] >= least_likelihood) & np.isfinite(track).all(axis=1))
 
 
-@dataclass(frozen=True)
-class Label:
-    """What stands in a column: a coordinate of a body part of an individual, which may be empty."""
-
-    individual: str
-    part: str
-    coordinate: str
-
-
-@dataclass(frozen=True)
-class Frame:
-    """The number of a frame, where it stands and how it is written there."""
-
-    place: str
-    text: str
-    number: float
-
-
 def read_deeplabcut(path: str | PathLike[str], individual: str | None = None) -> Tracks:
     """Reads a file of DeepLabCut, CSV or HDF5.
 
@@ -94,27 +75,13 @@ def read_deeplabcut(path: str | PathLike[str], individual: str | None = None) ->
         ProblemError: A file of another form; says line, column and value.
     """
     path = path_of("path", path)
-    if is_hdf5(path):
-        names, index, values = read_hdf5(path)
-        labels = [Label(*each) for each in names]
-        frames = [Frame(f"row {at}", f"{number:.12g}", number) for at, number in enumerate(index.tolist(), 1)]
-    else:
-        labels, frames, values = _read_csv(read_sheet(path, "track file"))
-    numbers = _numbers(path, frames)
-    columns = _columns(path, labels, individual)
+    labels, frames, values = read_hdf5(path) if is_hdf5(path) else _read_csv(read_sheet(path, "track file"))
     sure = np.ones(len(values))
-    return Tracks(
-        path,
-        numbers,
-        {
-            part: np.stack([values[:, at["x"]], values[:, at["y"]], _column(values, at, sure)], axis=1)
-            for part, at in columns.items()
-        },
-    )
-
-
-def _column(values: Floats, at: dict[str, int], otherwise: Floats) -> Floats:
-    return values[:, at["likelihood"]] if "likelihood" in at else otherwise
+    parts = {
+        part: np.stack([sure if at is None else values[:, at] for at in places], axis=1)
+        for part, places in _parts(path, labels, individual).items()
+    }
+    return Tracks(path, _numbers(path, frames), parts)
 
 
 def _read_csv(sheet: Sheet) -> tuple[list[Label], list[Frame], Floats]:
@@ -122,24 +89,24 @@ def _read_csv(sheet: Sheet) -> tuple[list[Label], list[Frame], Floats]:
     header = _header(sheet)
     width = max(map(len, header.values()))
     individuals, parts, coordinates = (
-        header.get(name, []) + [""] * (width - len(header.get(name, []))) for name in HEADER[1:]
+        [*header.get(name, []), *[""] * (width - len(header.get(name, [])))] for name in HEADER[1:]
     )
-    individuals, parts = _filled(individuals), _filled(parts)
     named = [at for at in range(width) if coordinates[at]]
-    labels = [Label(individuals[at], parts[at], coordinates[at]) for at in named]
+    labels = list(zip(_filled(individuals), _filled(parts), coordinates, strict=True))
     frames: list[Frame] = []
     values: list[list[float]] = []
     for line, row in sheet.rows[len(header) :]:
-        for at, cell in enumerate(row[1:]):
-            if cell and (at >= width or not coordinates[at]):
-                raise sheet.refusal(line, f"column {at + 2}", cell, "nothing, since it has no header")
         if len(row) < named[-1] + 2:
             raise ProblemError(
                 f"{sheet.path}, line {line} has {len(row)} columns; allowed: {named[-1] + 2} or more"
             )
-        frames.append(Frame(f"line {line}", row[0], sheet.number(line, "column 1", row[0], WHOLE)))
+        for at, cell in enumerate(row[1:]):
+            if cell and (at >= width or not coordinates[at]):
+                raise sheet.refusal(line, f"column {at + 2}", cell, "nothing, since it has no header")
+        number = sheet.number(line, "column 1", row[0], WHOLE)
+        frames.append((f"line {line}, column 1 is {row[0]!r}", number))
         values.append([sheet.number(line, f"column {at + 2}", row[at + 1]) for at in named])
-    return labels, frames, np.array(values, np.float64).reshape(len(frames), len(named))
+    return [labels[at] for at in named], frames, np.array(values, np.float64).reshape(len(frames), len(named))
 
 
 def _header(sheet: Sheet) -> dict[str, list[str]]:
@@ -158,27 +125,24 @@ def _header(sheet: Sheet) -> dict[str, list[str]]:
 
 def _filled(row: list[str]) -> list[str]:
     """Cells of a header of which merged ones have their text on the left."""
-    return list(accumulate(row, _or_left))
-
-
-def _or_left(left: str, cell: str) -> str:
-    return cell or left
+    filled = [""]
+    for cell in row:
+        filled.append(cell or filled[-1])
+    return filled[1:]
 
 
 def _numbers(path: Path, frames: Sequence[Frame]) -> NDArray[np.int64]:
-    """Numbers of frames, which must be whole and rise (F,)."""
+    """Numbers of frames (F,), which must be whole and rise."""
     last = -1.0
-    for frame in frames:
-        if not (last < frame.number <= LAST_FRAME and frame.number == round(frame.number)):
+    for told, number in frames:
+        if not (last < number <= LAST_FRAME and number == round(number)):
             allowed = WHOLE if last < 0.0 else f"{WHOLE}, greater than {last:.0f}"
-            question = "; is it a time in s or ms?" if last < frame.number < LAST_FRAME else ""
-            raise ProblemError(
-                f"{path}, {frame.place}, column 1 is {frame.text!r}; allowed: {allowed}{question}"
-            )
-        last = frame.number
+            question = "; is it a time in s or ms?" if last < number < LAST_FRAME else ""
+            raise ProblemError(f"{path}, {told}; allowed: {allowed}{question}")
+        last = number
     if not frames:
         raise ProblemError(f"{path} has no frames; allowed: at least one row after the header rows")
-    numbers = np.array([frame.number for frame in frames], np.int64)
+    numbers = np.array([number for _, number in frames], np.int64)
     steps = np.diff(numbers)
     if len(steps) > 1 and steps.min() > 1 and np.ptp(steps) == 1:
         raise ProblemError(
@@ -188,38 +152,27 @@ def _numbers(path: Path, frames: Sequence[Frame]) -> NDArray[np.int64]:
     return numbers
 
 
-def _columns(path: Path, labels: Sequence[Label], individual: str | None) -> dict[str, dict[str, int]]:
-    """Body part of the individual → places of its coordinates."""
-    chosen = _individual(path, labels, individual)
-    columns: dict[str, dict[str, int]] = {}
-    for at, label in enumerate(labels):
-        if label.individual not in (chosen, OF_ALL):
-            continue
-        found = columns.setdefault(label.part, {})
-        if label.coordinate not in COORDINATES and not OF_ENSEMBLES.fullmatch(label.coordinate):
-            raise ProblemError(
-                f"{path}, coords of {label.part!r} are {label.coordinate!r} in column {at + 2}; allowed: "
-                f"{', '.join(COORDINATES)}"
-            )
-        if label.coordinate in found:
-            raise ProblemError(
-                f"{path} has {label.coordinate!r} of body part {label.part!r} twice, in columns "
-                f"{found[label.coordinate] + 2} and {at + 2}; allowed: each body part once"
-            )
-        found[label.coordinate] = at
-    for part, found in columns.items():
-        if missing := [name for name in ("x", "y") if name not in found]:
-            raise ProblemError(f"{path} lacks {', '.join(missing)} of body part {part!r}")
-    return columns
-
-
-def _individual(path: Path, labels: Sequence[Label], individual: str | None) -> str:
-    """The individual that was asked for, or the only one."""
-    names = list(dict.fromkeys(label.individual for label in labels if label.individual != OF_ALL))
-    if individual is None and len(names) <= 1:
-        return names[0] if names else OF_ALL
-    if individual is None or individual not in names:
+def _parts(path: Path, labels: Sequence[Label], individual: str | None) -> dict[str, list[int | None]]:
+    """Body part of the individual → columns of x, y and likelihood, None where there is none."""
+    animals = list(dict.fromkeys(animal for animal, _, _ in labels if animal != OF_ALL))
+    if (individual is not None and individual not in animals) or (individual is None and len(animals) > 1):
         asked = "tracks several animals" if individual is None else f"has no individual {individual!r}"
-        known = ", ".join(filter(None, names)) or "none, it tracks a single animal"
+        known = ", ".join(filter(None, animals)) or "none, it tracks a single animal"
         raise ProblemError(f"{path} {asked}; allowed: individual (--individual) as one of: {known}")
-    return individual
+    meant = [individual or animals[0] if animals else OF_ALL, OF_ALL]
+    places: dict[tuple[str, str], int] = {}
+    for at, (animal, part, coordinate) in enumerate(labels):
+        if animal not in meant or OF_ENSEMBLES.fullmatch(coordinate):
+            continue
+        if coordinate not in COORDINATES:
+            raise ProblemError(
+                f"{path} has coordinates {coordinate!r} of {part!r}; allowed: {', '.join(COORDINATES)}"
+            )
+        if (part, coordinate) in places:
+            raise ProblemError(f"{path} has {coordinate!r} of body part {part!r} twice; allowed: once")
+        places[part, coordinate] = at
+    for part, _ in places:
+        for name in COORDINATES[:2]:
+            if (part, name) not in places:
+                raise ProblemError(f"{path} lacks {name!r} of body part {part!r}")
+    return {part: [places.get((part, name)) for name in COORDINATES] for part, _ in places}

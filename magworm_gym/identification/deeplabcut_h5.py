@@ -12,6 +12,11 @@ from magworm_gym.recording import Floats
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
+Label = tuple[str, str, str]
+"""What stands in a column: individual, which may be empty, body part and coordinate."""
+Frame = tuple[str, float]
+"""Where the number of a frame stands and how it is written there, and the number."""
+
 AS_CSV = "its tracks as CSV (deeplabcut.analyze_videos_converth5_to_csv)"
 
 
@@ -24,12 +29,11 @@ def is_hdf5(path: Path) -> bool:
         return False
 
 
-def read_hdf5(path: Path) -> tuple[list[tuple[str, str, str]], Floats, Floats]:
+def read_hdf5(path: Path) -> tuple[list[Label], list[Frame], Floats]:
     """Reads what ``DataFrame.to_hdf`` wrote, in the format "table" or "fixed".
 
     Returns:
-        Individual, which may be empty, body part and coordinate of each column (K,), the index (F,), and the
-        values (F, K).
+        Labels of the columns (K,), frames (F,), and values (F, K).
 
     Raises:
         ImportError: The library h5py is missing; says the extra to install.
@@ -45,22 +49,25 @@ def read_hdf5(path: Path) -> tuple[list[tuple[str, str, str]], Floats, Floats]:
         with h5py.File(path) as file:
             (group,) = file.values()
             names, index, values = _of_table(group["table"]) if "table" in group else _of_arrays(group)
-        columns = [_labels(name) for name in names]
-        index, values = np.asarray(index, np.float64), np.asarray(values, np.float64)
-        if values.shape != (len(index), len(columns)):
+        labels = [_label(*map(str, name)) for name in names]
+        frames = [
+            (f"row {at}, the index is {number:.12g}", float(number)) for at, number in enumerate(index, 1)
+        ]
+        values = np.asarray(values, np.float64)
+        if values.shape != (len(frames), len(labels)):
             raise ValueError("sizes differ")
     except Exception as error:  # what a damaged or another file makes h5py, NumPy and pickle raise has no end
         raise ProblemError(
             f"{path} is HDF5, but no table of tracks can be read from it; allowed: the file that DeepLabCut "
             f"writes, or {AS_CSV}"
         ) from error
-    return columns, index, values
+    return labels, frames, values
 
 
-def _labels(name: tuple[str, ...]) -> tuple[str, str, str]:
-    """Individual, part and coordinate of a column: scorer, perhaps individual, part, coordinate."""
-    _, *individual, part, coordinate = map(str, name)
-    return (individual or [""])[0], part, coordinate
+def _label(_: str, *names: str) -> Label:
+    """The label of a column: scorer, perhaps individual, part, coordinate."""
+    *individual, part, coordinate = names
+    return "".join(individual), part, coordinate
 
 
 def _of_table(table: Any) -> tuple[list[tuple[str, ...]], Any, Any]:

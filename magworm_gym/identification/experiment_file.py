@@ -18,11 +18,10 @@ from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.paths import scene_paths
 from magworm_gym.identification.plain_check import check_at_rest, check_frames, start_places
 from magworm_gym.identification.quantities import MEASURES, Measure, Quantity, named_quantity
-from magworm_gym.identification.targets import Aim, Comparison, Target
+from magworm_gym.identification.targets import Aim, Comparison, Target, Tolerance
 
 SHORTEST_S, LONGEST_S = 0.01, 3600.0
 
-Tolerance = Annotated[float, Meta(ge=1e-12, le=1e300, description="a number from 1e-12")]
 Duration = Annotated[float, Meta(ge=1e-4, le=LONGEST_S)]
 
 

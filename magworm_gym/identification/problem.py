@@ -16,8 +16,8 @@ from msgspec.structs import asdict
 from magworm_gym import __version__
 from magworm_gym._magworm import Scene, SceneError
 from magworm_gym.documents import Number, Table, Text, checked
-from magworm_gym.identification.claim_file import ClaimTable, read_claim
-from magworm_gym.identification.claims import Claim
+from magworm_gym.identification.claim_file import read_claim
+from magworm_gym.identification.claims import Claim, ClaimTable
 from magworm_gym.identification.experiment import Experiment, Run, edited_scene
 from magworm_gym.identification.experiment_file import (
     ComparisonTable,
@@ -219,13 +219,15 @@ def _claims(table: ProblemTable, sweeps: list[Sweep]) -> list[Claim]:
     """Claims; those of a group that is left out are only reported."""
     named = {sweep.name: sweep for sweep in sweeps}
     claims = [read_claim(each, f"claim[{at}]", named) for at, each in enumerate(table.claim)]
-    groups = sorted({claim.group for claim in claims if claim.group})
+    groups = sorted({claim.table.group for claim in claims if claim.table.group})
     if not set(table.without) <= set(groups):
         raise ProblemError(
             f"without is {list(table.without)}; allowed: a list of groups of claims, of "
             f"{', '.join(groups) or 'none'}"
         )
-    return [replace(claim, fitted=claim.fitted and claim.group not in table.without) for claim in claims]
+    return [
+        replace(claim, fitted=claim.fitted and claim.table.group not in table.without) for claim in claims
+    ]
 
 
 def _start(table: StartTable, at: int) -> dict[str, float]:

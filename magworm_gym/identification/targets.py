@@ -3,13 +3,16 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta
 
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.residual import guiding
 from magworm_gym.recording import Floats, Recording
 
+Tolerance = Annotated[float, Meta(ge=1e-12, le=1e300, description="a number from 1e-12")]
 Recordings = Mapping[str, Recording]
 """Name of an experiment, or of a robot of a sweep → what it gave."""
 

@@ -94,7 +94,7 @@ class Search:
     def left_out(self) -> list[str]:
         """Names of the claims of the group that was left out."""
         claims = [aim for aim in self.problem.aims if isinstance(aim, Claim)]
-        return [claim.name for claim in claims if claim.group == self.without]
+        return [claim.name for claim in claims if claim.table.group == self.without]
 
     def missed(self) -> list[str]:
         """Fitted targets that its best candidate misses."""
@@ -132,7 +132,7 @@ def main() -> None:
 def groups(problem: Problem) -> list[str]:
     """Groups of fitted claims."""
     claims = [aim for aim in problem.fitted if isinstance(aim, Claim)]
-    return list(dict.fromkeys(claim.group for claim in claims if claim.group))
+    return list(dict.fromkeys(claim.table.group for claim in claims if claim.table.group))
 
 
 def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without: str = "") -> Search:
