@@ -47,7 +47,7 @@ def parse_toml(text: str, source: str, mistake: type[Exception] = ValueError) ->
         raise mistake(f"{source} is not TOML: {error}") from error
 
 
-def checked(values: object, kind: type[T], where: str = "", mistake: type[Exception] = ValueError) -> T:
+def checked(values: object, kind: Any, where: str = "", mistake: type[Exception] = ValueError) -> Any:
     """Makes a typed table of plain values; numbers of NumPy count as Python's.
 
     Args:

@@ -20,7 +20,7 @@ from magworm_gym.identification import (
 from magworm_gym.identification.evaluation import BROKEN, REFUSED, Evaluator
 from magworm_gym.identification.paths import scene_numbers
 from magworm_gym.identification.quantities import Quantity
-from magworm_gym.identification.targets import Comparison, Target
+from magworm_gym.identification.targets import target
 
 PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
 ROBOT = {
@@ -258,12 +258,14 @@ def test_targets_count_in_tolerances_and_bounds_are_hinges():
         "b": path_recording([0.02, 0.019], [0.003, 0.003]),
     }
     stride = Quantity("stride_m", 1)
-    assert Target("a", stride, 9e-3, 9e-3, 1e-3).residuals(runs) == pytest.approx([1.0], rel=1e-3)
-    assert Target("a", stride, -np.inf, 11e-3, 1e-3).residuals(runs) == [0.0]
-    assert Target("a", stride, 11e-3, np.inf, 1e-3).compared(runs)[1] == pytest.approx([-1.0])
-    assert Comparison(("a", stride), ("b", stride), 8e-3, 1e-3).residuals(runs) == [0.0]
-    assert Comparison(("a", stride), ("b", stride), 10e-3, 1e-3).compared(runs)[1] == pytest.approx([-1.0])
-    wild = Target("a", stride, 1.0, 1.0, 1e-6).residuals(runs) ** 2
+    assert target(("a", stride), 9e-3, 9e-3, 1e-3).residuals(runs) == pytest.approx([1.0], rel=1e-3)
+    assert target(("a", stride), -np.inf, 11e-3, 1e-3).residuals(runs) == [0.0]
+    assert target(("a", stride), 11e-3, np.inf, 1e-3).compared(runs)[1] == pytest.approx([-1.0])
+    assert target(("a", stride), 8e-3, np.inf, 1e-3, minus=("b", stride)).residuals(runs) == [0.0]
+    assert target(("a", stride), 10e-3, np.inf, 1e-3, minus=("b", stride)).compared(runs)[1] == pytest.approx(
+        [-1.0]
+    )
+    wild = target(("a", stride), 1.0, 1.0, 1e-6).residuals(runs) ** 2
     assert 1e3 < wild[0] < 1e4
 
 
@@ -284,7 +286,9 @@ def test_refused_scenes_are_worse_than_broken_ones_and_those_than_any_other():
         },
         Path(),
     )
-    worst, bad, good = Evaluator(problem).losses(np.array([[0.0], [0.2], [0.9]]), np.full(3, np.inf))
+    worst, bad, good = Evaluator(problem).losses_and_shares(
+        np.array([[0.0], [0.2], [0.9]]), np.full(3, np.inf)
+    )[0]
     assert good < BROKEN < REFUSED < bad < worst
 
 

@@ -34,10 +34,10 @@ def test_losses_are_exact_up_to_their_bound_and_beyond_it_otherwise():
     made = problem([FAST, value("four.stride_m", 0.4, 3e-3)])
     units = np.random.default_rng(0).random((6, 2))
     evaluator = Evaluator(made)
-    exact = evaluator.losses(units, np.full(6, np.inf))
+    exact = evaluator.losses_and_shares(units, np.full(6, np.inf))[0]
     assert exact.max() < BROKEN
     bound = float(np.median(exact))
-    raced = evaluator.losses(units, np.full(6, bound))
+    raced = evaluator.losses_and_shares(units, np.full(6, bound))[0]
     assert np.array_equal(raced[exact <= bound], exact[exact <= bound])
     assert (raced[exact > bound] > bound).all() and (raced <= exact).all()
     assert (raced < exact).any(), "somebody was stopped before the second robot"
@@ -47,7 +47,10 @@ def test_what_is_held_out_is_reported_and_changes_nothing():
     with_it, without = problem([FAST, HELD]), problem([FAST])
     units = np.random.default_rng(1).random((3, 2))
     bounds = np.full(3, np.inf)
-    assert np.array_equal(Evaluator(with_it).losses(units, bounds), Evaluator(without).losses(units, bounds))
+    assert np.array_equal(
+        Evaluator(with_it).losses_and_shares(units, bounds)[0],
+        Evaluator(without).losses_and_shares(units, bounds)[0],
+    )
     assert with_it.measurements == without.measurements == 1
     assert with_it.simulated_s == without.simulated_s
     outcomes = Evaluator(with_it).outcomes(units[0])

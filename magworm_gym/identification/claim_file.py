@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from magworm_gym.identification.claims import Claim, ClaimTable, Curve, curve_of
+from magworm_gym.identification.claims import Claim, ClaimTable, Curve, claim, curve_of
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.quantities import MEASURES, named_quantity
 from magworm_gym.identification.sweep import Sweep
@@ -25,7 +25,7 @@ def read_claim(table: ClaimTable, where: str, sweeps: Mapping[str, Sweep]) -> Cl
     else:
         *rows, other = ([curve.within(low_m_s, high_m_s) for curve in row] for row in (*rows, other))
     _check_speeds([curve for row in (*rows, other) for curve in row], where)
-    return Claim(table, tuple(map(tuple, rows)), tuple(other), table.scale, table.fit)
+    return claim(table, tuple(map(tuple, rows)), tuple(other))
 
 
 def _named(names: str | list[str] | None, where: str, sweeps: Mapping[str, Sweep]) -> list[Curve]:

@@ -134,7 +134,7 @@ def curve_of(sweep: Sweep, quantity: Quantity) -> Curve:
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Claim(Aim):
     """Something that is said of curves.
 
@@ -142,47 +142,11 @@ class Claim(Aim):
         table: What a problem file says.
         curves: What it is about, cut to its speeds: K curves, each the mean of some.
         other: The curve that it is compared with where the kind asks for one, the mean of some.
-        tolerance: See :class:`Aim`; the table's scale.
-        fitted: See :class:`Aim`.
     """
 
     table: ClaimTable
     curves: tuple[tuple[Curve, ...], ...]
     other: tuple[Curve, ...]
-    tolerance: float
-    fitted: bool
-
-    @property
-    def name(self) -> str:
-        """What it is called."""
-        return self.table.name
-
-    @property
-    def sources(self) -> frozenset[str]:
-        """Names of the sweeps that it needs."""
-        return frozenset(curve.sweep for row in (*self.curves, self.other) for curve in row)
-
-    @property
-    def asked(self) -> float | None:
-        """The value, where the kind asks for one."""
-        return self.table.amount if KINDS[self.table.kind].exact else None
-
-    @property
-    def band(self) -> float:
-        """How far a value may be off; nothing of a bound."""
-        return 0.0 if self.asked is None else (self.table.within or 0.0) / self.table.scale
-
-    @property
-    def wanted(self) -> str:
-        """Its curves and what is said of them."""
-        low_m_s, high_m_s = self.table.range_m_s
-        span = f"{low_m_s:g} to {high_m_s:g}" if high_m_s > low_m_s else f"{low_m_s:g}"
-        names = [" and ".join(map(str, row)) for row in self.curves]
-        curves = ", ".join(names) if len(names) <= MOST_NAMES else f"{names[0]} to {names[-1]}"
-        other = " and ".join(map(str, self.other))
-        kind, amount = KINDS[self.table.kind], self.table.amount
-        said = kind.words.format(amount=amount, within=self.table.within, other=other)
-        return f"{curves} {said} {span} m/s"
 
     def means(self, recordings: Recordings) -> Floats:
         """Its curves, averaged over conditions (K, S), in the unit of the quantity."""
@@ -210,3 +174,25 @@ def _over_conditions(
 ) -> Floats:
     """A statistic over conditions of each curve, and one of those of all curves (S,)."""
     return np.asarray(of([over(curve.values(recordings), axis=1) for curve in curves], axis=0))
+
+
+def claim(table: ClaimTable, curves: tuple[tuple[Curve, ...], ...], other: tuple[Curve, ...]) -> Claim:
+    """The claim of a table about curves; for its arguments see :class:`Claim`."""
+    kind, (low_m_s, high_m_s) = KINDS[table.kind], table.range_m_s
+    names = [" and ".join(map(str, row)) for row in curves]
+    about = ", ".join(names) if len(names) <= MOST_NAMES else f"{names[0]} to {names[-1]}"
+    than = " and ".join(map(str, other))
+    said = kind.words.format(amount=table.amount, within=table.within, other=than)
+    span = f"{low_m_s:g} to {high_m_s:g}" if high_m_s > low_m_s else f"{low_m_s:g}"
+    return Claim(
+        name=table.name,
+        wanted=f"{about} {said} {span} m/s",
+        sources=frozenset(curve.sweep for row in (*curves, other) for curve in row),
+        tolerance=table.scale,
+        fitted=table.fit,
+        band=(table.within or 0.0) / table.scale if kind.exact else 0.0,
+        asked=table.amount if kind.exact else None,
+        table=table,
+        curves=curves,
+        other=other,
+    )

@@ -40,19 +40,6 @@ class Evaluation:
     residuals: Floats | None = None
 
 
-@dataclass(frozen=True)
-class Stage:
-    """A run, and what can be told after it.
-
-    Attributes:
-        run: The run.
-        aims: What needs its recordings and perhaps those of earlier runs, by place among the fitted ones.
-    """
-
-    run: Run
-    aims: dict[int, Aim]
-
-
 class Evaluator:
     """Runs candidates.
 
@@ -69,7 +56,7 @@ class Evaluator:
         self.problem = problem
         self.base_unit = problem.space.unit_of(_base_values(problem))
         self._threads = threads or os.cpu_count() or 1
-        self._fitted = _stages(problem.runs, problem.fitted)
+        self._stages = _stages(problem.runs, problem.fitted)
 
     def losses_and_shares(self, units: Floats, bounds: Floats) -> tuple[Floats, Floats]:
         """Losses (C,) of points of the cube (C, P), and shares of the fitted aims (C, A).
@@ -79,39 +66,27 @@ class Evaluator:
         found = self._all(self._evaluation, units, bounds)
         return np.array([each.loss for each in found]), np.array([each.shares for each in found])
 
-    def losses(self, units: Floats, bounds: Floats) -> Floats:
-        """Losses alone, see :meth:`losses_and_shares`."""
-        return self.losses_and_shares(units, bounds)[0]
-
     def evaluations(self, units: Floats) -> list[Evaluation]:
         """What becomes of points of the cube (C, P)."""
         return self._all(self._evaluation, units, np.full(len(units), np.inf))
 
     def outcomes(self, unit: Floats, aims: Sequence[Aim] | None = None) -> list[Outcome]:
-        """How well a point of the cube (P,) meets each aim; those that cannot be simulated say so.
-
-        Args:
-            unit: The point.
-            aims: The aims; None for all.
-        """
+        """How well a point of the cube (P,) meets aims, or all; those that cannot be simulated say so."""
         aims = self.problem.aims if aims is None else aims
-        needed = {source for aim in aims for source in aim.sources}
-        runs = [run for run in self.problem.runs if run.name in needed]
+        runs = [run for run in self.problem.runs if any(run.name in aim.sources for aim in aims)]
         values = self.problem.space.scene_values(unit)
         told = self._all(lambda run: self._attempt(run, values), runs)
-        by_name = dict(zip((run.name for run in runs), told, strict=True))
-        return [_outcome(aim, by_name) for aim in aims]
+        by_name = {run.name: each for run, each in zip(runs, told, strict=True)}
+        return [_outcome(aim, [by_name[source] for source in sorted(aim.sources)]) for aim in aims]
 
     def refusal(self, unit: Floats) -> str:
         """Why a point of the cube (P,) cannot be simulated, in words."""
         values = self.problem.space.scene_values(unit)
-        for stage in self._fitted:
-            told = self._attempt(stage.run, values)
-            if isinstance(told, str):
-                return told
-            for recording in told.values():
-                if recording.broken:
-                    return recording.broken
+        for run, _ in self._stages:
+            told = self._attempt(run, values)
+            broken = [told] if isinstance(told, str) else [each.broken for each in told.values()]
+            if reason := next(filter(None, broken), None):
+                return reason
         return "it can"
 
     def _all(self, task: Callable[..., T], *arguments: Iterable[object]) -> list[T]:
@@ -131,16 +106,16 @@ class Evaluator:
         recordings: dict[str, Recording] = {}
         residuals: list[Floats] = []
         shares = np.full(len(self.problem.fitted), np.nan)
-        for done, stage in enumerate(self._fitted):
-            told = self._attempt(stage.run, values)
+        for done, (run, aims) in enumerate(self._stages):
+            told = self._attempt(run, values)
             if isinstance(told, str):
                 return Evaluation(REFUSED * (1.0 + float(np.square(unit - self.base_unit).sum())), shares)
             left = _share_left(list(told.values()))
             if left > 0.0:
-                left = (len(self._fitted) - done - 1 + left) / len(self._fitted)
+                left = (len(self._stages) - done - 1 + left) / len(self._stages)
                 return Evaluation(BROKEN * (1.0 + 2.0 * left), shares)
             recordings.update(told)
-            for place, aim in stage.aims.items():
+            for place, aim in aims.items():
                 residuals.append(aim.residuals(recordings))
                 shares[place] = np.square(residuals[-1]).sum()
                 if not np.isfinite(shares[place]):
@@ -150,35 +125,26 @@ class Evaluator:
         return Evaluation(min(float(shares.sum()), BROKEN), shares, np.concatenate(residuals))
 
 
-def _stages(runs: Iterable[Run], aims: Sequence[Aim]) -> list[Stage]:
-    """Runs that an aim needs, in their order, each with the aims that can be judged after it."""
-    stages: list[Stage] = []
+def _stages(runs: Iterable[Run], aims: Sequence[Aim]) -> list[tuple[Run, dict[int, Aim]]]:
+    """Runs that an aim needs, in their order, each with the aims by place that can be told after it."""
+    stages: list[tuple[Run, dict[int, Aim]]] = []
+    known: set[str] = set()
     for run in runs:
-        if not any(run.name in aim.sources for aim in aims):
-            continue
-        known = {stage.run.name for stage in stages} | {run.name}
-        ready = {at: aim for at, aim in enumerate(aims) if run.name in aim.sources and aim.sources <= known}
-        stages.append(Stage(run, ready))
+        if any(run.name in aim.sources for aim in aims):
+            known.add(run.name)
+            ready = {
+                at: aim for at, aim in enumerate(aims) if run.name in aim.sources and aim.sources <= known
+            }
+            stages.append((run, ready))
     return stages
 
 
-def _outcome(aim: Aim, told: dict[str, dict[str, Recording] | str]) -> Outcome:
-    """How well an aim is met by what runs gave."""
+def _outcome(aim: Aim, told: Sequence[dict[str, Recording] | str]) -> Outcome:
+    """How well an aim is met by what its runs gave, or why a scene was refused."""
     recordings: dict[str, Recording] = {}
-    for source in sorted(aim.sources):
-        given = told[source]
+    for given in told:
         if isinstance(given, str):
-            return Outcome(
-                name=aim.name,
-                target="a scene that can be simulated",
-                model=float("nan"),
-                error_percent=None,
-                error_tolerances=float("nan"),
-                loss=float("nan"),
-                remark=given,
-                met=False,
-                fitted=aim.fitted,
-            )
+            return aim.refused(given)
         recordings.update(given)
     outcome = aim.outcome(recordings)
     broken = [recording.broken for recording in recordings.values() if recording.broken]

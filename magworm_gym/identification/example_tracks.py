@@ -1,14 +1,17 @@
 """A film that was never made: tracks of a simulated robot, as DeepLabCut would write them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from os import PathLike
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta
+from msgspec.structs import asdict
 
 from magworm_gym._magworm import Scene
 from magworm_gym.arguments import path_of
 from magworm_gym.atomic_files import write_text
+from magworm_gym.documents import Number, Table, checked
 from magworm_gym.identification.camera import Camera
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.recording import Floats, record_scenes
@@ -18,8 +21,7 @@ ASTRAY = 20.0
 """How far astray a lost point is, in standard deviations of the noise [1]."""
 
 
-@dataclass(frozen=True)
-class Blur:
+class Blur(Table, frozen=True):
     """What tracking does to a film.
 
     Attributes:
@@ -29,10 +31,10 @@ class Blur:
         origin_px: Pixel of the scene's origin.
     """
 
-    noise_px: float = 1.0
-    lost: float = 0.03
-    wrong: float = 0.005
-    origin_px: tuple[float, float] = (212.0, 388.0)
+    noise_px: Annotated[float, Meta(ge=0.0, le=1e4)] = 1.0
+    lost: Annotated[float, Meta(ge=0.0, le=1.0)] = 0.03
+    wrong: Annotated[float, Meta(ge=0.0, le=1.0)] = 0.005
+    origin_px: tuple[Number, Number] = (212.0, 388.0)
 
 
 def write_example_tracks(
@@ -62,15 +64,10 @@ def write_example_tracks(
     """
     path = path_of("path", path)
     blur = blur or Blur()
-    for name, number, low, high in (
-        ("duration_s", duration_s, RECORD_S, LONGEST_S),
-        ("metres_per_pixel", camera.metres_per_pixel, 1e-9, 1.0),
-        ("frames_per_second", camera.frames_per_second, 1e-3, 1e5),
-        ("noise_px", blur.noise_px, 0.0, 1e4),
-        ("seed", seed, 0, 2**63 - 1),
-    ):
-        if not low <= number <= high:
-            raise ProblemError(f"{name} is {number!r}; allowed: a number from {low:g} to {high:g}")
+    for each in (camera, blur):
+        checked(asdict(each), type(each), mistake=ProblemError)
+    checked(duration_s, Annotated[float, Meta(ge=RECORD_S, le=LONGEST_S)], "duration_s", ProblemError)
+    checked(seed, Annotated[int, Meta(ge=0, le=2**63 - 1)], "seed", ProblemError)
     run = record_scenes([scene], duration_s, RECORD_S, nodes=False)[0]
     places = np.concatenate([run.magnet_poses[..., :2], run.drive_positions[:, :1]], axis=1)
     frames = np.arange(int(duration_s * camera.frames_per_second + 1e-6) + 1)

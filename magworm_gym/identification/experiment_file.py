@@ -18,7 +18,7 @@ from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.paths import scene_paths
 from magworm_gym.identification.plain_check import check_at_rest, check_frames, start_places
 from magworm_gym.identification.quantities import MEASURES, Measure, Quantity, named_quantity
-from magworm_gym.identification.targets import Aim, Comparison, Target, Tolerance
+from magworm_gym.identification.targets import Aim, Target, Tolerance, target
 
 SHORTEST_S, LONGEST_S = 0.01, 3600.0
 
@@ -58,7 +58,7 @@ class TargetTable(Table, frozen=True):
 
 
 class ComparisonTable(Table, frozen=True):
-    """One quantity is greater than another; the attributes are those of :class:`Comparison`."""
+    """One quantity is greater than another; the difference is a :class:`Target`."""
 
     greater: Text
     less: Text
@@ -106,14 +106,7 @@ class Found:
 
 
 def read_experiment(table: ExperimentTable, name: str, where: str, base: Scene, folder: Path) -> Found:
-    """Makes an experiment.
-
-    Args:
-        table: Its table.
-        name: Its name.
-        where: Its place in the file.
-        base: The scene, before its values are set.
-        folder: Folder of the files that it names.
+    """The experiment of a table that stands at a place of the file, which names files of a folder.
 
     Raises:
         ProblemError: A value that is not allowed, or a mistake in a file.
@@ -202,17 +195,12 @@ def _target(table: TargetTable, experiment: str, magnets: int, where: str) -> Ta
         raise ProblemError(
             f"{where}.magnet is {table.magnet}; allowed: a whole number from 0 to {magnets - 1}"
         )
-    quantity = Quantity(table.quantity, table.magnet)
-    return Target(experiment, quantity, *table.bounds, table.tolerance, table.fit)
+    quantity = experiment, Quantity(table.quantity, table.magnet)
+    return target(quantity, *table.bounds, table.tolerance, table.fit)
 
 
-def read_comparison(table: ComparisonTable, where: str, magnets: Mapping[str, int]) -> Comparison:
-    """Makes a comparison.
-
-    Args:
-        table: Its table.
-        where: Its place in the file.
-        magnets: Name of an experiment → body magnets of its scene.
+def read_comparison(table: ComparisonTable, where: str, magnets: Mapping[str, int]) -> Target:
+    """The comparison of a table that stands at a place of the file, given the magnets of each experiment.
 
     Raises:
         ProblemError: A value that is not allowed.
@@ -229,4 +217,4 @@ def read_comparison(table: ComparisonTable, where: str, magnets: Mapping[str, in
         return name, quantity
 
     greater, less = measured("greater", table.greater), measured("less", table.less)
-    return Comparison(greater, less, table.by, table.tolerance, table.fit)
+    return target(greater, table.by, inf, table.tolerance, table.fit, less)

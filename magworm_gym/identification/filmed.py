@@ -1,7 +1,6 @@
 """Comparing a recording with what a camera saw."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Annotated
 
 import numpy as np
@@ -39,7 +38,7 @@ class FilmTable(Camera, frozen=True, kw_only=True):
     independent_s: Annotated[float, Meta(ge=1e-6, le=1e3)] = 0.1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Film(Aim):
     """Confident places of magnets in a film.
 
@@ -49,9 +48,6 @@ class Film(Aim):
         time_s: Times of the places since the experiment began (N,) [s].
         magnet: Which magnet each place is of (N,), counted from the head.
         points_m: The places (N, 2) in the axes of the scene [m].
-        tolerance: Deviation that counts as one: what tracking and model may be off [m].
-        independent_s: Time after which two deviations count as independent of each other [s].
-        fitted: See :class:`Aim`.
     """
 
     experiment: str
@@ -59,40 +55,11 @@ class Film(Aim):
     time_s: Floats
     magnet: NDArray[np.int64]
     points_m: Floats
-    tolerance: float
-    independent_s: float
-    fitted: bool = True
-
-    @property
-    def sources(self) -> frozenset[str]:
-        """Name of its experiment."""
-        return frozenset({self.experiment})
-
-    @property
-    def name(self) -> str:
-        """What is compared."""
-        return f"{self.experiment}: tracks, rms deviation of a coordinate in m"
-
-    @property
-    def wanted(self) -> str:
-        """A deviation within the tolerance."""
-        return f"within {self.tolerance:g}"
-
-    @property
-    def band(self) -> float:
-        """One tolerance."""
-        return 1.0
 
     @property
     def allowance(self) -> float:
         """A tolerance of each of its independent measurements."""
         return self.weight
-
-    @cached_property
-    def weight(self) -> float:
-        """Number of independent measurements that it counts for [1]."""
-        share = min(1.0, 1.0 / (self.independent_s * self.camera.frames_per_second))
-        return max(1.0, self.points_m.size * share)
 
     def deviation_m(self, recording: Recording) -> Floats:
         """Model minus track (N, 2) [m], the camera's offset removed."""
@@ -159,6 +126,19 @@ def film(experiment: str, tracks: Tracks, table: FilmTable, duration_s: float) -
         times.append(time_s[kept])
         magnets.append(np.full(np.count_nonzero(kept), magnet))
         points.append(table.points_m(tracks.part(part)[kept, :2]))
-    joined = np.concatenate(times), np.concatenate(magnets), np.concatenate(points)
+    points_m = np.concatenate(points)
     tolerance_m = table.tolerance_m or DEFAULT_TOLERANCE_PX * table.metres_per_pixel
-    return Film(experiment, table, *joined, tolerance_m, table.independent_s)
+    share = min(1.0, 1.0 / (table.independent_s * table.frames_per_second))
+    return Film(
+        name=f"{experiment}: tracks, rms deviation of a coordinate in m",
+        wanted=f"within {tolerance_m:g}",
+        sources=frozenset({experiment}),
+        tolerance=tolerance_m,
+        band=1.0,
+        weight=max(1.0, points_m.size * share),
+        experiment=experiment,
+        camera=table,
+        time_s=np.concatenate(times),
+        magnet=np.concatenate(magnets),
+        points_m=points_m,
+    )

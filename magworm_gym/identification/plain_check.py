@@ -144,7 +144,7 @@ def doubts(experiments: Sequence[Experiment], aims: Sequence[Aim], sample_s: flo
     for experiment in experiments:
         length_m = experiment.scene.body_length_m
         for aim in aims:
-            if isinstance(aim, Target) and aim.experiment == experiment.name:
+            if isinstance(aim, Target) and aim.quantity[0] == experiment.name:
                 yield from _doubts_of_unit(aim, length_m)
         try:
             yield from _doubts_of_run(experiment, films.get(experiment.name), sample_s)
@@ -155,7 +155,7 @@ def doubts(experiments: Sequence[Experiment], aims: Sequence[Aim], sample_s: flo
 def _doubts_of_unit(target: Target, length_m: float) -> Iterator[str]:
     """Of a target that is a length."""
     asked_m = max(abs(bound) for bound in (target.low, target.high) if np.isfinite(bound))
-    if target.quantity.kind.endswith("_m") and asked_m > MOST_LENGTHS * length_m:
+    if target.quantity[1].kind.endswith("_m") and asked_m > MOST_LENGTHS * length_m:
         yield f"{target.name} is asked to be {asked_m:g} m, and the body is {length_m:.3g} m long: in m?"
 
 

@@ -46,12 +46,7 @@ class SweepTable(Table, frozen=True):
 
 
 def read_sweeps(table: SweepTable, where: str, base: Scene) -> list[Sweep]:
-    """Makes a sweep for each of the robots of a table.
-
-    Args:
-        table: The table.
-        where: Its place in the file.
-        base: The base scene.
+    """A sweep of each of the robots of a table that stands at a place of the file.
 
     Raises:
         ProblemError: A value that is not allowed.

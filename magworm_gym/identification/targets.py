@@ -44,46 +44,29 @@ class Outcome:
     fitted: bool = True
 
 
+@dataclass(frozen=True, kw_only=True)
 class Aim(ABC):
     """Something that recordings are compared with.
 
     Attributes:
-        fitted: Whether it is part of the loss; else it is only reported.
+        name: What it is called in a report.
+        wanted: What it asks for, in words.
+        sources: Names of the experiments and sweeps whose recordings it needs.
         tolerance: Deviation that counts as one, in the unit of what is measured.
+        fitted: Whether it is part of the loss; else it is only reported.
+        band: Deviation up to which it is met, in tolerances [1]; nothing of a bound.
+        asked: The value that is asked for, in the unit of what is measured; None where none is.
+        weight: Number of independent measurements that it counts for [1].
     """
 
-    fitted: bool
+    name: str
+    wanted: str
+    sources: frozenset[str]
     tolerance: float
-
-    @property
-    def weight(self) -> float:
-        """Number of independent measurements that it counts for [1]."""
-        return 1.0
-
-    @property
-    def asked(self) -> float | None:
-        """The value that is asked for, in the unit of what is measured; None where none is."""
-        return None
-
-    @property
-    def band(self) -> float:
-        """Deviation up to which it is met, in tolerances [1]; nothing of a bound."""
-        return 0.0
-
-    @property
-    @abstractmethod
-    def name(self) -> str:
-        """What it is called in a report."""
-
-    @property
-    @abstractmethod
-    def wanted(self) -> str:
-        """What it asks for, in words."""
-
-    @property
-    @abstractmethod
-    def sources(self) -> frozenset[str]:
-        """Names of the experiments and sweeps whose recordings it needs."""
+    fitted: bool = True
+    band: float = 0.0
+    asked: float | None = None
+    weight: float = 1.0
 
     @abstractmethod
     def compared(self, recordings: Recordings) -> tuple[float, Floats]:
@@ -92,7 +75,7 @@ class Aim(ABC):
     @property
     def allowance(self) -> float:
         """Greatest share of the loss with which it can be met [1]."""
-        return float(np.square(guiding(self.band)))
+        return self.weight * float(np.square(guiding(self.band)))
 
     def residuals(self, recordings: Recordings) -> Floats:
         """Residuals (D,) [1]; their squares add up to its share of the loss, one measurement in all."""
@@ -114,96 +97,62 @@ class Aim(ABC):
             fitted=self.fitted,
         )
 
+    def refused(self, reason: str) -> Outcome:
+        """The outcome where a scene was refused."""
+        wanted, nan = "a scene that can be simulated", float("nan")
+        return Outcome(self.name, wanted, nan, None, nan, nan, reason, met=False, fitted=self.fitted)
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, kw_only=True)
 class Target(Aim):
-    """A quantity of one experiment: equal to a value, or within bounds.
+    """A quantity of a run: equal to a value, or within bounds; or of one run minus that of another.
 
     Attributes:
-        experiment: Name of the experiment.
-        quantity: What is measured.
+        quantity: Name of the experiment, and what is measured in it.
+        minus: The same of what is taken from it, if anything.
         low: Least value allowed, in the unit of the quantity; equal to ``high`` for a value.
         high: Greatest value allowed.
-        tolerance: See :class:`Aim`; a value is met within one.
-        fitted: See :class:`Aim`.
     """
 
-    experiment: str
-    quantity: Quantity
+    quantity: tuple[str, Quantity]
+    minus: tuple[tuple[str, Quantity], ...]
     low: float
     high: float
-    tolerance: float
-    fitted: bool = True
-
-    @property
-    def sources(self) -> frozenset[str]:
-        """Name of its experiment."""
-        return frozenset({self.experiment})
-
-    @property
-    def name(self) -> str:
-        """Its experiment and quantity."""
-        return f"{self.experiment}: {self.quantity}"
-
-    @property
-    def asked(self) -> float | None:
-        """The value, where bounds are equal."""
-        return self.low if self.low == self.high else None
-
-    @property
-    def band(self) -> float:
-        """One tolerance of a value; nothing of a bound."""
-        return 0.0 if self.asked is None else 1.0
-
-    @property
-    def wanted(self) -> str:
-        """The value, or the bounds that there are."""
-        if self.asked is not None:
-            return f"{self.low:g} ± {self.tolerance:g}"
-        if np.isinf(self.high):
-            return f"at least {self.low:g}"
-        return f"at most {self.high:g}" if np.isinf(self.low) else f"{self.low:g} to {self.high:g}"
 
     def compared(self, recordings: Recordings) -> tuple[float, Floats]:
         """The quantity, and how far outside of the bounds it is (1,)."""
-        model = self.quantity.measure(recordings[self.experiment])
+        measured = [quantity.measure(recordings[name]) for name, quantity in (self.quantity, *self.minus)]
+        model = measured[0] - sum(measured[1:])
         return model, np.array([(model - min(max(model, self.low), self.high)) / self.tolerance])
 
 
-@dataclass(frozen=True)
-class Comparison(Aim):
-    """One quantity is greater than another, perhaps of another experiment.
-
-    Attributes:
-        greater: Experiment and quantity that is to be the greater one.
-        less: Experiment and quantity that is to be the smaller one.
-        by: By how much at least, in the unit of the quantities.
-        tolerance: See :class:`Aim`.
-        fitted: See :class:`Aim`.
-    """
-
-    greater: tuple[str, Quantity]
-    less: tuple[str, Quantity]
-    by: float
-    tolerance: float
-    fitted: bool = True
-
-    @property
-    def sources(self) -> frozenset[str]:
-        """Names of both experiments."""
-        return frozenset({self.greater[0], self.less[0]})
-
-    @property
-    def name(self) -> str:
-        """Both quantities."""
-        return f"{self.greater[0]}: {self.greater[1]} minus {self.less[0]}: {self.less[1]}"
-
-    @property
-    def wanted(self) -> str:
-        """The least margin."""
-        return f"at least {self.by:g}"
-
-    def compared(self, recordings: Recordings) -> tuple[float, Floats]:
-        """Greater minus smaller, and what that lacks (1,)."""
-        greater, less = (quantity.measure(recordings[name]) for name, quantity in (self.greater, self.less))
-        return greater - less, np.array([min(greater - less - self.by, 0.0) / self.tolerance])
+def target(
+    quantity: tuple[str, Quantity],
+    low: float,
+    high: float,
+    tolerance: float,
+    fitted: bool = True,
+    *minus: tuple[str, Quantity],
+) -> Target:
+    """A target; a value is met within one tolerance. For its arguments see :class:`Target` and :class:`Aim`."""
+    all_of_it = (quantity, *minus)
+    asked = low if low == high else None
+    if asked is not None:
+        wanted = f"{low:g} ± {tolerance:g}"
+    elif np.isinf(high):
+        wanted = f"at least {low:g}"
+    else:
+        wanted = f"at most {high:g}" if np.isinf(low) else f"{low:g} to {high:g}"
+    return Target(
+        name=" minus ".join(f"{experiment}: {each}" for experiment, each in all_of_it),
+        wanted=wanted,
+        sources=frozenset(experiment for experiment, _ in all_of_it),
+        tolerance=tolerance,
+        fitted=fitted,
+        band=0.0 if asked is None else 1.0,
+        asked=asked,
+        quantity=quantity,
+        minus=minus,
+        low=low,
+        high=high,
+    )
