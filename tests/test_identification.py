@@ -261,10 +261,9 @@ def test_targets_count_in_tolerances_and_bounds_are_hinges():
     assert target(("a", stride), 9e-3, 9e-3, 1e-3).residuals(runs) == pytest.approx([1.0], rel=1e-3)
     assert target(("a", stride), -np.inf, 11e-3, 1e-3).residuals(runs) == [0.0]
     assert target(("a", stride), 11e-3, np.inf, 1e-3).compared(runs)[1] == pytest.approx([-1.0])
-    assert target(("a", stride), 8e-3, np.inf, 1e-3, minus=("b", stride)).residuals(runs) == [0.0]
-    assert target(("a", stride), 10e-3, np.inf, 1e-3, minus=("b", stride)).compared(runs)[1] == pytest.approx(
-        [-1.0]
-    )
+    assert target(("a", stride), 8e-3, np.inf, 1e-3, True, ("b", stride)).residuals(runs) == [0.0]
+    lead = target(("a", stride), 10e-3, np.inf, 1e-3, True, ("b", stride))
+    assert lead.compared(runs)[1] == pytest.approx([-1.0])
     wild = target(("a", stride), 1.0, 1.0, 1e-6).residuals(runs) ** 2
     assert 1e3 < wild[0] < 1e4
 

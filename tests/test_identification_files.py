@@ -109,6 +109,18 @@ def test_a_measured_drive_becomes_waypoints(tmp_path):
         make_problem(entries(values={}, targets=targets, drive={"file": "stage.csv"}), tmp_path)
 
 
+def test_a_parameter_of_a_drive_is_not_fitted_where_a_stage_was_measured(tmp_path):
+    (tmp_path / "stage.csv").write_text("time_s,x_m,y_m\n0,0.0,-0.03\n0.2,0.02,-0.03\n")
+    measured = {"name": "stage", "duration_s": 0.1, "targets": [TARGET], "drive": {"file": "stage.csv"}}
+    made = entries(targets=[TARGET])
+    made["experiment"].append(measured)
+    made["parameters"] = {"drive.motion.x_m": {"low": -0.06, "high": -0.04}}
+    one, other = make_problem(made, tmp_path).experiments
+    assert "drive.motion.x_m" not in one.known and "drive.motion.x_m" in other.known
+    assert "x_m = -0.045\n" in one.fitted_scene({"drive.motion.x_m": -0.045}).to_toml()
+    assert other.fitted_scene({"drive.motion.x_m": -0.045}) == other.scene
+
+
 TARGET = {"quantity": "stride_m", "value": 1e-3, "tolerance": 1e-5}
 
 

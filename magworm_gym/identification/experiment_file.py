@@ -15,7 +15,7 @@ from magworm_gym.identification.drive_motion import drive_from_film, drive_from_
 from magworm_gym.identification.experiment import Experiment, edited_scene
 from magworm_gym.identification.filmed import FilmTable, film
 from magworm_gym.identification.mistake import ProblemError
-from magworm_gym.identification.paths import scene_paths
+from magworm_gym.identification.paths import scene_numbers, scene_paths
 from magworm_gym.identification.plain_check import check_at_rest, check_frames, start_places
 from magworm_gym.identification.quantities import MEASURES, Measure, Quantity, named_quantity
 from magworm_gym.identification.targets import Aim, Target, Tolerance, target
@@ -105,8 +105,12 @@ class Found:
     remarks: list[str]
 
 
-def read_experiment(table: ExperimentTable, name: str, where: str, base: Scene, folder: Path) -> Found:
+def read_experiment(
+    table: ExperimentTable, name: str, where: str, base: Scene, paths: list[str], folder: Path
+) -> Found:
     """The experiment of a table that stands at a place of the file, which names files of a folder.
+
+    A parameter of one of the paths is not fitted there where values set it, or a table that leaves it out.
 
     Raises:
         ProblemError: A value that is not allowed, or a mistake in a file.
@@ -136,7 +140,11 @@ def read_experiment(table: ExperimentTable, name: str, where: str, base: Scene, 
     aims += [
         _target(each, name, scene.magnets, f"{where}.targets[{at}]") for at, each in enumerate(table.targets)
     ]
-    return Found(Experiment(name, scene, duration_s, known=frozenset(values)), aims, remarks)
+    left_out = [path for path in paths if path not in scene_numbers(scene)]
+    known = {
+        path for path in left_out if any(path.startswith(f"{table}.") for table in values)
+    } | values.keys()
+    return Found(Experiment(name, scene, duration_s, known=frozenset(known)), aims, remarks)
 
 
 def _tracks(table: FilmTable, magnets: int, where: str, folder: Path) -> Tracks:

@@ -147,7 +147,7 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     fixed = scene_paths(table.values, scene)
     base = edited_scene(scene, fixed, "values")
     space = _space(table.parameters)
-    found = _experiments(table.experiment, base, folder)
+    found = _experiments(table.experiment, base, [parameter.path for parameter in space.parameters], folder)
     experiments = [each.experiment for each in found]
     sweeps = _sweeps(table.sweep, base, {experiment.name for experiment in experiments})
     runs: list[Run] = [*experiments, *sweeps]
@@ -192,7 +192,9 @@ def _space(parameters: dict[str, Any]) -> ParameterSpace:
     return ParameterSpace([Parameter(path=path, **asdict(each)) for path, each in bounds.items()])
 
 
-def _experiments(tables: Sequence[ExperimentTable], base: Scene, folder: Path) -> list[Found]:
+def _experiments(
+    tables: Sequence[ExperimentTable], base: Scene, paths: list[str], folder: Path
+) -> list[Found]:
     found: dict[str, Found] = {}
     for at, table in enumerate(tables):
         where, name = f"experiment[{at}]", table.name or f"experiment-{at + 1}"
@@ -200,7 +202,7 @@ def _experiments(tables: Sequence[ExperimentTable], base: Scene, folder: Path) -
             raise ProblemError(
                 f"{where}.name is {name!r}; allowed: a name without a dot that no other experiment has"
             )
-        found[name] = read_experiment(table, name, where, base, folder)
+        found[name] = read_experiment(table, name, where, base, paths, folder)
     return list(found.values())
 
 

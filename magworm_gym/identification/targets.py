@@ -134,7 +134,7 @@ def target(
     fitted: bool = True,
     *minus: tuple[str, Quantity],
 ) -> Target:
-    """A target; a value is met within one tolerance. For its arguments see :class:`Target` and :class:`Aim`."""
+    """A target, a value of which is met within one tolerance; see :class:`Target` and :class:`Aim`."""
     all_of_it = (quantity, *minus)
     asked = low if low == high else None
     if asked is not None:
