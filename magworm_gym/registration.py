@@ -11,6 +11,7 @@ import gymnasium
 
 from magworm_gym.arguments import choice, positive, shown
 from magworm_gym.scene import AnyScene, episode_steps, load_scene
+from magworm_gym.specified import plain
 from magworm_gym.tasks import Crawl, Reach, Task, Turn
 from magworm_gym.tasks.task import DEFINED
 from magworm_gym.vector_env import MagWormVectorEnv
@@ -73,8 +74,9 @@ def register_task(
     """
     if not (isinstance(task, type) and issubclass(task, Task)) or "<locals>" in task.__qualname__:
         raise ValueError(f"task is {shown(task)}; allowed: a class of tasks at the top of a module")
+    settings = {name: plain(value) for name, value in settings.items()}
     with_task(MagWormVectorEnv, task.path, settings)
-    own_scene = {} if scene is None else {"scene": scene}
+    own_scene = {} if scene is None else {"scene": plain(scene)}
     if max_episode_steps is None:
         max_episode_steps = episode_steps(load_scene(task.default_scene if scene is None else scene))
     gymnasium.registry.pop(environment_id, None)

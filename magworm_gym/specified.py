@@ -39,11 +39,11 @@ class Specified(Described):
             arguments = dict(spec.kwargs)
             if isinstance(task := arguments.pop("task", None), Task):
                 arguments |= task.arguments()
-            spec.kwargs = {name: _plain(value) for name, value in arguments.items()}
+            spec.kwargs = {name: plain(value) for name, value in arguments.items()}
         self._spec = spec
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Paths as text, numbers and arrays of NumPy as Python's, modes as their values; all else as it is."""
     if isinstance(value, Randomise):
         return asdict(value)
@@ -53,4 +53,4 @@ def _plain(value: Any) -> Any:
         return value.value
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
-    return [_plain(each) for each in value] if isinstance(value, (list, tuple)) else value
+    return [plain(each) for each in value] if isinstance(value, (list, tuple)) else value

@@ -138,6 +138,14 @@ def test_modules_that_cannot_be_imported_are_named() -> None:
         arguments_of("nowhere:Own/Stop-v0")
 
 
+def test_an_entry_is_json(own_task: ModuleType) -> None:
+    scene = EXAMPLES / "own_scene.toml"
+    register_task("Own/Json-v0", own_task.Stop, scene=scene, distance_m=np.float32(0.5))
+    told = json.loads(gymnasium.spec("Own/Json-v0").to_json())
+    assert told["kwargs"] == {"task_class": "own_task:Stop", "scene": str(scene), "distance_m": 0.5}
+    assert told["max_episode_steps"] == 300
+
+
 def test_an_entry_is_replaced() -> None:
     for steps in (7, 9):
         register_task("Own/Again-v0", Local, max_episode_steps=steps)
