@@ -16,7 +16,7 @@ from gymnasium.envs.registration import EnvSpec
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
-from magworm_gym import CRAWL_ID, CUSTOM_ID, MagWormVectorEnv, arguments_of, register_task
+from magworm_gym import CRAWL_ID, CUSTOM_ID, MagWormVectorEnv, arguments_of, load_policy, register_task
 from magworm_gym.spaces import Part
 from magworm_gym.tasks import Crawl, GoalOption, Simulation, TaskResult, Turn
 from magworm_gym.testing import check_vector_env
@@ -86,6 +86,17 @@ def test_stable_baselines3_learns_one_s_own_task() -> None:
     worms = MagWormSB3VecEnv(4, **arguments_of(f"own_task:{OWN_ID}", distance_m=0.01, threads=1))
     model = sb3.PPO("MlpPolicy", worms, n_steps=8, batch_size=32, n_epochs=1, device="cpu").learn(32)
     assert model.num_timesteps == 32 and worms.worms.task.distance_m == 0.01
+
+
+def test_a_training_takes_one_s_own_task(tmp_path: Path, own_task: ModuleType) -> None:
+    pytest.importorskip("stable_baselines3")
+    from magworm_gym.learning import train
+
+    flags = ["--num-envs", "4", "--steps", "128", "--seeds", "0", "--workers", "1", "--out", str(tmp_path)]
+    train.main([f"own_task:{OWN_ID}", *flags])
+    policy = load_policy(tmp_path / "seed-0" / "policy")
+    worms = policy.make_vec(num_envs=2)
+    assert worms.task == own_task.Stop() and policy(worms.reset(seed=0)[0]).shape == (2, 3)
 
 
 def test_one_s_own_task_needs_no_id(own_task: ModuleType) -> None:

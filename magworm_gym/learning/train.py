@@ -155,7 +155,7 @@ def _parser() -> Parser:
         "environment",
         metavar="ENVIRONMENT",
         help="crawl (towards the head as fast as possible), turn (to a heading, and stay there), reach (a "
-        "point), or an identifier such as MagWorm/Turn-v0; module:identifier imports what registers it",
+        "point), or an identifier such as MagWorm/Turn-v1; module:identifier imports what registers it",
     )
     add("--algorithm", metavar="NAME", help="ppo, sac, or module:name of another learner (default: ppo)")
     add("--config", metavar="FILE", help="settings (default: those of the algorithm in training/)")
