@@ -261,7 +261,7 @@ def test_a_part_that_the_header_names_twice_is_refused(tmp_path, film):
         ({"frames_per_second": 30.0}, r"about 60 frames per second: is frames_per_second = 30 right\?"),
         ({"frames_per_second": 240.0}, r"about 60 frames per second"),
         ({"y_axis": "up"}, 'with y_axis = "down"'),
-        ({"start_s": 0.4}, r"0.4 s earlier .* \(start_s\)\?"),
+        ({"start_s": 0.4}, r"0.4 s later: is the time right .* \(start_s\)\?"),
         ({"values": {"drive.motion": {**PASS["drive.motion"], "x_m": -9.0}}}, "the drive comes no nearer"),
         (
             {"values": {"drive.motion": {**PASS["drive.motion"], "x_m": -0.3, "speed_m_s": -0.1}}},

@@ -113,11 +113,7 @@ def _fitted(
 ) -> Identification:
     evaluator = Evaluator(problem, threads)
     path = None if out is None else _open_folder(out, resume) / CANDIDATES
-    ledger = Ledger(
-        path, evaluator.losses_and_shares, len(problem.space), len(problem.fitted), problem.fingerprint
-    )
-    if resume and path is not None and path.exists():
-        ledger.load()
+    ledger = Ledger(evaluator, path, resume=resume)
     try:
         evolutions = search(
             ledger.losses, problem.limit, _starts(problem, evaluator), problem.settings, progress

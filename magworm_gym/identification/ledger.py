@@ -1,15 +1,13 @@
 """All candidates with their losses, kept on disk, so that a search can go on."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
 from magworm_gym.atomic_files import replace_file
+from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.recording import Floats
-
-LossesAndShares = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 SAME = 1e-6
 """Distance in the unit cube up to which a candidate is the one that was kept [1]."""
@@ -22,46 +20,40 @@ class Ledger:
     beginning and the losses that are kept answer it at once; no state of an optimiser is stored.
 
     Args:
+        evaluator: Gives losses and shares of the aims (A).
         path: The file, numpy's npz, written anew after each question; None keeps nothing.
-        ask: Gives losses (C,) of points of the unit cube (C, P), exact up to bounds (C,), and shares of
-            the aims (C, A).
-        dimension: Number of parameters P.
-        aims: Number of aims A that share the loss.
-        fingerprint: Of the problem that the losses belong to.
+        resume: Whether to begin with what the file keeps.
+
+    Raises:
+        ProblemError: What was kept is of another problem or cannot be read.
     """
 
-    def __init__(
-        self, path: Path | None, ask: LossesAndShares, dimension: int, aims: int, fingerprint: str
-    ) -> None:
-        self._path, self._ask, self._fingerprint = path, ask, fingerprint
-        self._units, self._losses, self._shares = np.empty((0, dimension)), np.empty(0), np.empty((0, aims))
+    def __init__(self, evaluator: Evaluator, path: Path | None = None, *, resume: bool = False) -> None:
+        problem = evaluator.problem
+        self._path, self._ask, self._fingerprint = path, evaluator.losses_and_shares, problem.fingerprint
+        self._units, self._losses = np.empty((0, len(problem.space))), np.empty(0)
+        self._shares = np.empty((0, len(problem.fitted)))
         self._used = 0
+        if resume and path is not None and path.exists():
+            self._load(path)
 
-    def load(self) -> int:
-        """Reads what was kept, and returns the number of candidates.
-
-        Raises:
-            ProblemError: It is of another problem or cannot be read.
-        """
-        assert self._path is not None
+    def _load(self, path: Path) -> None:
+        unreadable = f"{path} cannot be read; allowed: the file of a run that was stopped"
         try:
-            with self._path.open("rb") as file, np.load(file) as kept:
+            with path.open("rb") as file, np.load(file) as kept:
                 fingerprint = str(kept["fingerprint"])
-                units, losses, shares = kept["units"], kept["losses"], kept["shares"]
-            sizes = (len(losses), units.shape[1]), (len(losses), shares.shape[1])
-            if (units.shape, shares.shape, losses.ndim) != (*sizes, 1):
-                raise ValueError("sizes differ")
+                found = kept["units"], kept["losses"], kept["shares"]
         except Exception as error:  # what damaged bytes make zipfile and NumPy raise has no end
-            raise ProblemError(
-                f"{self._path} cannot be read; allowed: the file of a run that was stopped"
-            ) from error
+            raise ProblemError(unreadable) from error
         if fingerprint != self._fingerprint:
             raise ProblemError(
-                f"{self._path} belongs to another problem, other settings or another version; "
+                f"{path} belongs to another problem, other settings or another version; "
                 "allowed with --resume: exactly what the run was started with"
             )
-        self._units, self._losses, self._shares = units, losses, shares
-        return len(losses)
+        sizes = [(len(found[1]), *each.shape[1:]) for each in (self._units, self._losses, self._shares)]
+        if [each.shape for each in found] != sizes:
+            raise ProblemError(unreadable)
+        self._units, self._losses, self._shares = found
 
     @property
     def units(self) -> Floats:
@@ -79,11 +71,7 @@ class Ledger:
         return self._shares[: self._used]
 
     def losses(self, units: Floats, bounds: Floats) -> Floats:
-        """Losses (C,) of points of the unit cube (C, P); kept before it returns.
-
-        Args:
-            units: The points.
-            bounds: Losses (C,) beyond which they need not be exact.
+        """Losses (C,) of points of the unit cube (C, P), exact up to bounds (C,); kept before it returns.
 
         Raises:
             ProblemError: What was kept does not fit, so it was made by another version.

@@ -32,14 +32,14 @@ TILTED_DEG = 5.0
 RATES = (0.125, 0.25, 0.5, 2.0 / 3.0, 0.8, 1.0, 1.25, 1.5, 2.0, 4.0, 8.0)
 """Times the frame rate that is given with which a film is tried [1]."""
 
-SHIFTS_S = tuple(0.1 * step for step in range(-10, 11))
+SHIFTS_S = tuple(step / 10.0 for step in range(-10, 11))
 """Times by which a film is tried to be late [s]."""
 
 MOST_TRIED_S = 20.0
 """Longest time that is simulated to try other frame rates, unless the film is longer [s]."""
 
 CLEARLY = 0.4
-"""Part of its loss that another reading of a film must have to be suggested [1]."""
+"""Part of its loss, or of that of a robot at rest, with which another reading of a film is suggested [1]."""
 
 STILL, MOVED = 0.1, 10.0
 """Part of the way of marks up to which magnets are still [1]; tolerances from which marks have moved [1]."""
@@ -183,30 +183,27 @@ def _doubts_of_film(film: Film, run: Recording) -> Iterator[str]:
         (rate, shift_s): _loss(replace(film, time_s=(film.time_s - shift_s) / rate), run)
         for rate, shift_s in product(RATES, SHIFTS_S)
     }
-    as_given = losses[1.0, SHIFTS_S[len(SHIFTS_S) // 2]]
     (rate, shift_s), least = min(losses.items(), key=lambda item: item[1])
     mirrored = _loss(replace(film, points_m=film.points_m * np.array([1.0, -1.0])), run)
+    still = _loss(replace(film, time_s=np.zeros(len(film.time_s))), run)
+    enough = CLEARLY * min(losses[1.0, 0.0], still)
     rise_m, model_rise_m = _rise_m(film), float(np.ptp(run.magnet_poses[..., 1], axis=0).max())
+    as_if = f"{name}: the marks move as the magnets of the scene would"
     if model_rise_m < STILL * rise_m and rise_m > MOVED * film.tolerance:
         yield (
             f"{name}: the marks rise by {rise_m:.2g} m and the scene's magnets by {model_rise_m:.2g} m: does "
             "the drive pass them in that time?"
         )
-    elif mirrored < min(CLEARLY * as_given, least):
+    elif mirrored < min(enough, least):
         other = "up" if camera.y_axis == "down" else "down"
-        yield f'{name}: the marks move as the magnets of the scene would with y_axis = "{other}"'
-    elif least < CLEARLY * as_given and rate != 1.0:
-        yield (
-            f"{name}: the marks move as the magnets of the scene would at about "
-            f"{rate * camera.frames_per_second:.3g} frames per second: is frames_per_second = "
-            f"{camera.frames_per_second:g} right?"
-        )
-    elif least < CLEARLY * as_given and shift_s != 0.0:
-        when = "later" if shift_s > 0.0 else "earlier"
-        yield (
-            f"{name}: the marks move about {abs(shift_s):.1f} s {when} than the scene's magnets would: is "
-            "the time right at which the drive begins (start_s)?"
-        )
+        yield f'{as_if} with y_axis = "{other}"'
+    elif least < enough and rate != 1.0:
+        given = camera.frames_per_second
+        told = f"about {rate * given:.3g} frames per second: is frames_per_second = {given:g} right?"
+        yield f"{as_if} at {told}"
+    elif least < enough and shift_s != 0.0:
+        when = "earlier" if shift_s > 0.0 else "later"
+        yield f"{as_if} {abs(shift_s):.1f} s {when}: is the time right at which the drive begins (start_s)?"
 
 
 def _rise_m(film: Film) -> float:
