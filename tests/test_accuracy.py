@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from magworm_gym import Scene, SceneError
-from studies.error.cases import crawl
+from studies.error.cases import CRAWL
 from studies.error.errors import errors
 from studies.error.levels import LEVELS, settings_of
 from studies.error.settings import Settings
@@ -47,7 +47,7 @@ def test_a_rod_keeps_its_elements() -> None:
 
 
 def test_the_words_keep_the_stride() -> None:
-    case = crawl()
+    case = CRAWL
     reference = case.run(case.check)
     for word, promised in PROMISED.items():
         stride, *_ = errors(case.run(settings_of(with_word(word))), reference, {})

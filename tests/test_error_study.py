@@ -9,12 +9,11 @@ import pytest
 pytest.importorskip("jinja2")
 
 from studies.error.case import Axis, Outcome
-from studies.error.cases import CASES, crawl, incline
+from studies.error.cases import CASES, CRAWL, INCLINE, MAGNETS
 from studies.error.errors import BROKEN, Error, errors, figure_error, pose_error
-from studies.error.magnets import magnets
 from studies.error.rows import Row, measure, pareto
 from studies.error.settings import Settings
-from studies.error.study import Found, keep, tabled, text
+from studies.error.study import DATA, Found, keep, tabled, text
 from studies.error.work import Work
 from studies.kit.data import read_rows, write_rows
 
@@ -82,14 +81,14 @@ def test_cases_that_are_not_run_again_keep_their_rows(tmp_path: Path) -> None:
 
 def test_longer_steps_slide_too_far_by_half_a_step() -> None:
     """v grows by a Δt a step, so the way is ½ a t² + ½ a t Δt."""
-    case = replace(incline(), front=[], axes=[])
+    case = replace(INCLINE, front=[], axes=[])
     outcome = case.run(Settings(10.0, 8))
     (found,) = errors(outcome, outcome, case.exact)
     assert found.mean == pytest.approx(0.010, rel=0.05)
 
 
 def test_a_rod_with_magnets_is_run_with_the_wrench_of_its_settings() -> None:
-    case = magnets()
+    case = MAGNETS
     cuboids, dipoles = (case.run(Settings(4.0, 18, order)) for order in (2, 0))
     height, _ = errors(dipoles, cuboids, {})
     assert abs(height.mean) > 0.05
@@ -99,6 +98,14 @@ def test_every_case_has_settings_that_differ() -> None:
     for case in CASES.values():
         assert len(case.all_settings()) > 5
         assert case.reference != case.check
+
+
+def test_the_data_hold_what_the_cases_run() -> None:
+    rows = read_rows(DATA / "errors.csv", Row)
+    for case in CASES.values():
+        wanted = [(axis.name, settings) for axis in case.axes for settings in axis.values]
+        wanted += [("check", case.check), *(("front", settings) for settings in case.front)]
+        assert set(wanted) == {(row.part, row.settings) for row in rows if row.case == case.name}
 
 
 def test_settings_say_how_long_a_wrench_acts() -> None:
@@ -112,7 +119,7 @@ def test_settings_say_how_long_a_wrench_acts() -> None:
 def test_held_wrenches_are_older_and_fewer() -> None:
     axis = Axis("interval", [Settings(2.0, interval=steps) for steps in (1, 5)], Settings(2.0), costs=True)
     step = Axis("step", [Settings(2.0)], Settings(1.0))
-    one = replace(crawl(), scenes=crawl().scenes[16:18], axes=[step, axis], front=[Settings(5.0)])
+    one = replace(CRAWL, scenes=CRAWL.scenes[16:18], axes=[step, axis], front=[Settings(5.0)])
     rows = list(measure(replace(one, reference=Settings(2.0), check=Settings(5.0)), 1))
     along = [row for row in rows if (row.part, row.error.figure) == ("interval", "pose")]
     steps, of_drive, of_body = 500, 3, 4  # one pair lies evenly about the middle and counts twice

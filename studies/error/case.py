@@ -7,6 +7,9 @@ from magworm_gym import Recording, Scene, record_scenes
 from studies.error.settings import Settings
 from studies.kit.passes import Floats
 
+SAMPLE_S = 0.02
+"""Between instants of a track [s]."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -50,7 +53,6 @@ class Case:
         body: "worm" or "rod".
         scenes: The runs, as presets with their motions, without numerical choices.
         duration_s: For how long [s].
-        sample_s: Between instants of the track [s].
         read: Figures and track of the recordings.
         axes: One value varied at a time.
         ranked: Figure whose error is set against cost.
@@ -65,7 +67,6 @@ class Case:
     body: str
     scenes: Sequence[Scene]
     duration_s: float
-    sample_s: float
     read: Callable[[Sequence[Recording]], Outcome]
     axes: Sequence[Axis]
     ranked: str
@@ -81,7 +82,7 @@ class Case:
     def run(self, settings: Settings) -> Outcome:
         """All runs with some settings."""
         scenes = [self.scene(index, settings) for index in range(len(self.scenes))]
-        records = record_scenes(scenes, self.duration_s, self.sample_s, nodes=self.body == "rod")
+        records = record_scenes(scenes, self.duration_s, SAMPLE_S, nodes=self.body == "rod")
         broken = next((record.broken for record in records if record.broken is not None), None)
         return self.read(records) if broken is None else Outcome({}, None, broken)
 

@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from studies.error.case import Case
-from studies.error.cases import crawl, passes_below
+from studies.error.cases import CRAWL, passes_below
 from studies.error.errors import Error, errors
 from studies.error.settings import Settings
 
@@ -27,14 +26,10 @@ class Distance:
 def distances() -> Iterator[Distance]:
     """All steps and places."""
     for step_ms in STEPS_MS:
-        true = crawl().run(Settings(step_ms))
+        true = CRAWL.run(Settings(step_ms))
         for place_m in PLACES_M:
-            found = crawl_at(place_m).run(Settings(step_ms, precision="single"))
+            there = replace(CRAWL, scenes=passes_below(place_m))
+            found = there.run(Settings(step_ms, precision="single"))
             if found.tracks is not None:
                 found.tracks[..., 0] -= place_m
             yield from (Distance(step_ms, place_m, error) for error in errors(found, true, {}))
-
-
-def crawl_at(place_m: float) -> Case:
-    """The case `crawl` elsewhere."""
-    return replace(crawl(), scenes=passes_below(place_m))

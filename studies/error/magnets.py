@@ -4,14 +4,7 @@ Nothing touches, nothing damps and the magnets of the rod do not act on each oth
 with this one but for shear.
 """
 
-from collections.abc import Sequence
-
-import numpy as np
-
-from magworm_gym import Recording, Scene
-from studies.error.case import Axis, Case, Outcome
-from studies.error.settings import Settings
-from studies.kit.passes import MM
+from magworm_gym import Scene
 
 REMANENCE_T = 1.22
 ROBOT = {
@@ -31,12 +24,7 @@ POLARITIES = (1, -1)
 """Alternating, as in the robot; the tip is repelled, and so kept from snapping to the drive."""
 LOW_M, HIGH_M, RISE_S = -0.062, -0.032, 0.5
 """Heights of the drive's centre [m] and for how long it rises [s]; then it stands."""
-DURATION_S, SAMPLE_S = 1.0, 0.02
-
-STEPS_MS = (4.0, 2.0, 1.0, 0.5, 0.2, 0.1)
-MESHES = (9, 18, 27, 54)
-ORDERS = (0, 1, 2, 3)
-REFERENCE = Settings(0.02, 216, 4)
+DURATION_S = 1.0
 
 
 def scene() -> Scene:
@@ -57,32 +45,3 @@ def scene() -> Scene:
             "magnetic_terms.mutual": False,
         }
     )
-
-
-def magnets() -> Case:
-    """The case."""
-    return Case(
-        name="magnets",
-        title="An undamped cantilever with magnets",
-        body="rod",
-        scenes=[scene()],
-        duration_s=DURATION_S,
-        sample_s=SAMPLE_S,
-        read=read_magnets,
-        axes=(
-            Axis("step", [Settings(step, 54) for step in STEPS_MS], Settings(0.02, 54)),
-            Axis("step", [Settings(step, 54, integrator="euler") for step in STEPS_MS], Settings(0.02, 54)),
-            Axis("elements", [Settings(0.05, mesh) for mesh in (*MESHES, 108)], Settings(0.05, 216)),
-            Axis("order", [Settings(1.0, 54, order) for order in ORDERS], Settings(1.0, 54, 6)),
-        ),
-        ranked="pose",
-        front=[Settings(step, mesh) for mesh in MESHES for step in STEPS_MS],
-        reference=REFERENCE,
-        check=Settings(0.04, 108, 3),
-    )
-
-
-def read_magnets(records: Sequence[Recording]) -> Outcome:
-    """Height of the tip's magnet at the end [mm], and places of both."""
-    places = np.stack([record.magnet_poses[..., :2] for record in records])
-    return Outcome({"height": MM * places[:, -1, -1, 1]}, places)

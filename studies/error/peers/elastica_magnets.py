@@ -12,7 +12,8 @@ from typing import Any
 import elastica
 import numpy as np
 
-from studies.error.magnets import DURATION_S, HIGH_M, LOW_M, PLACES_M, RISE_S, SAMPLE_S
+from studies.error.case import SAMPLE_S
+from studies.error.magnets import DURATION_S, HIGH_M, LOW_M, PLACES_M, RISE_S
 from studies.error.peers.elastica_rod import clamped, cosserat_rod
 from studies.error.peers.magnet_rod import AS_IT_IS, HARDLY_SHEARS, Stiffening, magnet_rod, mesh
 from studies.error.peers.magpylib_wrench import DriveMagnet, Extrapolated

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studies.error.magnets import REFERENCE, magnets
+from studies.error.cases import MAGNETS
 from studies.error.peers.cantilever import TIP_MM, tip_only
 from studies.error.peers.measure import Measured, Series, Track, apart
 from studies.kit.passes import MM
@@ -92,7 +92,7 @@ def reference_mm(case: str) -> Track:
     """What the runs of a case are compared with [mm]."""
     if case == "cantilever":
         return tip_only(*TIP_MM)
-    tracks = magnets().run(REFERENCE).tracks
+    tracks = MAGNETS.run(MAGNETS.reference).tracks
     assert tracks is not None
     return np.asarray(MM * tracks[0])
 
