@@ -19,7 +19,7 @@ from magworm_gym.learning.compare import evaluate  # noqa: E402
 from magworm_gym.learning.compare.intervals import Interval, interquartile_mean, interval  # noqa: E402
 from magworm_gym.learning.compare.report import Result, verdict  # noqa: E402
 from magworm_gym.learning.compare.stages import Stages  # noqa: E402
-from magworm_gym.learning.damage import factors_for_each, removable_sets, removed_for_each, robot_name  # noqa: E402
+from magworm_gym.learning.damage import removable_sets, robot_name  # noqa: E402
 
 TINY_BUDGET = """
 [training]
@@ -108,17 +108,6 @@ def test_removable_sets_leave_three_magnets() -> None:
     assert removable_sets(5, (1,)) == [(1,), (0, 1), (1, 2), (1, 3), (1, 4)]
     assert robot_name(()) == robot_name((1,), (1,)) == "intact"
     assert robot_name((0, 3)) == "without 0 and 3"
-
-
-def test_damage_is_spread_over_the_batch() -> None:
-    removed = removed_for_each(4, (), 64, 0.5)
-    assert sum(map(bool, removed)) == 32
-    assert {taken: removed.count(taken) for taken in removable_sets(4)[1:]} == dict.fromkeys(
-        removable_sets(4)[1:], 8
-    )
-    assert removed_for_each(3, (), 8, 1.0) == [()] * 8
-    factors = factors_for_each(("mass",), 1000, 0.2, seed=1)["mass"]
-    assert 0.8 <= factors.min() < 0.82 and 1.22 < factors.max() <= 1.25
 
 
 def test_intervals() -> None:
