@@ -113,7 +113,7 @@ def _nested(kind: type[Any], cells: dict[str, str]) -> dict[str, Any]:
         if inner:
             given = any(cells[column] for column, _ in _columns(inner))
             values[name] = _nested(inner, cells) if given or not absent else None
-        elif issubclass(get_origin(of) or of, tuple):
+        elif get_origin(of) is tuple:
             values[name] = cells[name].split()
         elif cells[name] == "" and of is not str:
             values[name] = None if absent else "nan"
