@@ -5,10 +5,10 @@ PYTHON ?= python3
 VENV ?= .venv
 # A PyTorch package index, such as https://download.pytorch.org/whl/cpu; empty: pip's own choice.
 TORCH_INDEX_URL ?=
-# Size and folder of the comparison that `make demo` runs; see training/configs/budget-*.toml.
+# Size of the comparisons, smoke, small or full; see training/configs/budgets/. Folder of that of `make demo`.
 BUDGET ?= small
 OUT ?= runs/demo
-# Folders of `make turn` and `make reach`, whose BUDGET may also be smoke; see training/configs/goal-*.toml.
+# Folders of `make turn` and `make reach`.
 TURN_OUT ?= runs/turn-comparison
 REACH_OUT ?= runs/reach-comparison
 
@@ -18,6 +18,9 @@ PIP := $(VENV_PYTHON) -m pip --disable-pip-version-check
 RUST := $(shell find rust -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 EXTENSION := $(wildcard magworm_gym/_magworm*.so)
 WHEEL_VENV := target/wheel-venv
+COMPARE = $(VENV_PYTHON) training/evaluate.py --budget $(BUDGET)
+# Results of this size are those of README and docs/, which `make docs` fills.
+KEEP = $(if $(filter small,$(BUDGET)),--keep docs/results/$(1).json)
 
 export PYO3_PYTHON := $(VENV_PYTHON)
 
@@ -31,13 +34,13 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 ##@ Main
 
 demo: install-train  ## train a controller, compare it with the belts, print the table last
-	$(VENV_PYTHON) training/evaluate.py --budget $(BUDGET) --out $(OUT)
+	$(COMPARE) crawl --out $(OUT) $(call KEEP,crawl)
 
 turn: install-train  ## train turning, compare it with belts and two magnets, a quarter of an hour
-	$(VENV_PYTHON) training/evaluate_goals.py turn --budget $(BUDGET) --out $(TURN_OUT)
+	$(COMPARE) turn --out $(TURN_OUT) $(call KEEP,turn)
 
 reach: install-train  ## the same for crawling to a point
-	$(VENV_PYTHON) training/evaluate_goals.py reach --budget $(BUDGET) --out $(REACH_OUT)
+	$(COMPARE) reach --out $(REACH_OUT) $(call KEEP,reach)
 
 validate: install-test need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
 	$(VENV_PYTHON) -m studies measure validation

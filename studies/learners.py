@@ -18,9 +18,10 @@ from stable_baselines3.common.utils import set_random_seed
 from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 from magworm_gym import load_scene
-from magworm_gym.learning.compare.goal_trials import FIRST_SEED, fly
+from magworm_gym.baselines import Runner, fly
+from magworm_gym.learning.compare.contest import FIRST_SEED
 from magworm_gym.sb3 import MagWormSB3VecEnv
-from magworm_gym.tasks import TaskName
+from magworm_gym.tasks import TaskName, task_of
 
 TASK: TaskName = "turn"
 SCENE = "turn-3-pair"
@@ -103,8 +104,9 @@ class Predicted:
     def start(self, worms: Any) -> None:
         """Nothing to prepare."""
 
-    def act(self, observations: Any) -> Any:
-        """Actions for observations."""
+    def act(self, worms: Any) -> Any:
+        """Actions for what they observe."""
+        observations = worms.observations
         if isinstance(self._environments, VecNormalize):
             observations = self._environments.normalize_obs(observations)
         return np.asarray(self._model.predict(observations, deterministic=True)[0], np.float64)
@@ -135,7 +137,8 @@ def measured(name: str, kind: type[BaseAlgorithm], seed: int, seconds: float) ->
     model.learn(2**31, callback=clock)
     goals = np.repeat(GOALS_DEG, STARTS)
     seeds = range(FIRST_SEED, FIRST_SEED + len(goals))
-    flight = fly(scene, TASK, Predicted(model, environments), goals, seeds, MEASURE_S)
+    worms = Runner(scene, len(goals), task=task_of(TASK))
+    flight = fly(worms, Predicted(model, environments), goals, seeds, MEASURE_S)
     turned = np.abs(goals) - np.abs(flight.left[-1])
     return {
         "steps": model.num_timesteps,

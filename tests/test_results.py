@@ -15,7 +15,6 @@ DOCS = Path(__file__).parent.parent / "docs"
 TABLE = Table(
     [Column("drive", "drive"), Column("speed_m_s", "speed [mm/s]", ".1f", 1000.0)],
     [{"drive": "belt", "speed_m_s": Interval(0.006, 0.005, 0.0071, 4)}, {"drive": "none", "speed_m_s": 0.0}],
-    note="Below.",
 )
 MARKDOWN = "| drive | speed [mm/s] |\n| --- | --- |\n| belt | 6.0 [5.0, 7.1] |\n| none | 0.0 |"
 PAGE = """A <!-- =speed -->0<!-- /=speed --> b
@@ -56,7 +55,7 @@ def docs(tmp_path: Path) -> Path:
 def test_a_report_is_read_as_it_was_written(docs: Path) -> None:
     report = read_report(docs / "results" / "crawl.json")
     assert report == Report("Crawling", {"words": "Words.", "table": TABLE}, {"speed": 2.5})
-    assert report.markdown("![x](x.png)") == f"# Crawling\n\nWords.\n\n{MARKDOWN}\n\nBelow.\n\n![x](x.png)\n"
+    assert report.markdown("![x](x.png)") == f"# Crawling\n\nWords.\n\n{MARKDOWN}\n\n![x](x.png)\n"
     (docs / "results" / "crawl.json").write_text('{"title": 3}')
     with pytest.raises(ValueError, match=r"crawl\.json holds no report"):
         read_report(docs / "results" / "crawl.json")

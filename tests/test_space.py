@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from magworm_gym import CRAWL_ID, Batch, MagWormVectorEnv, Scene, record_scenes
-from magworm_gym.baselines import Still, UniformlyRandom
+from magworm_gym.baselines import Runner, Still, UniformlyRandom
 from magworm_gym.testing import check_vector_env
 
 
@@ -106,9 +106,9 @@ def test_crawling_in_space_passes_strictly() -> None:
 
 
 def test_the_simplest_controllers_act_in_space(scene: Scene) -> None:
-    batch = Batch(scene, 2)
-    assert Still().act(batch).tolist() == [[0.0, 0.0, -1.0, 1.0, 0.0]] * 2
-    assert UniformlyRandom(0).act(batch).shape == (2, 5)
+    worms = Runner(scene, 2)
+    assert Still().act(worms).tolist() == [[0.0, 0.0, -1.0, 1.0, 0.0]] * 2
+    assert UniformlyRandom(0).act(worms).shape == (2, 5)
 
 
 def drawn(task: str, options: dict[str, Any]) -> np.ndarray:

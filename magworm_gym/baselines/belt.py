@@ -6,13 +6,14 @@ with 170 mm, belt speed up to 210 mm/s.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch, Scene
-from magworm_gym.baselines.trial import Trial, crawl_speed_m_s
+from magworm_gym._magworm import Scene
+from magworm_gym.baselines.runner import Runner
+from magworm_gym.baselines.sweep import Sweep
+from magworm_gym.baselines.trial import Trial
 
 Floats = NDArray[np.float64]
 
@@ -54,26 +55,6 @@ def belt_scene(scene: Scene, pitch_m: float, speed_m_s: float | None = None) -> 
     )
 
 
-@dataclass(frozen=True)
-class BeltCurve:
-    """Crawling speed against belt speed.
-
-    Attributes:
-        pitch_m: Pitch of the belt [m].
-        drive_speed_m_s: Belt speeds (S,) [m/s].
-        speed_m_s: Crawling speed (S, starts) [m/s].
-    """
-
-    pitch_m: float
-    drive_speed_m_s: Floats
-    speed_m_s: Floats
-
-    @property
-    def best(self) -> int:
-        """Index of the belt speed with the greatest mean crawling speed."""
-        return int(self.speed_m_s.mean(axis=1).argmax())
-
-
 def belt_starts(pitch_m: float, count: int, seed: int) -> Floats:
     """Start poses (count, 3) that spread the robot over one pitch of the belt.
 
@@ -98,10 +79,10 @@ def sweep_belt(
     trial: Trial,
     *,
     starts: int = 8,
+    removed: Sequence[int] | None = None,
     seed: int = 0,
-    present: NDArray[np.bool_] | None = None,
-) -> BeltCurve:
-    """Measures the whole curve of crawling speed against belt speed in one batch.
+) -> Sweep:
+    """Measures crawling speed against belt speed in one batch.
 
     Args:
         scene: Scene with a controlled drive.
@@ -109,11 +90,11 @@ def sweep_belt(
         drive_speed_m_s: Belt speeds (S,) [m/s], each above 0 and at most the stage's limit.
         trial: How a speed is measured.
         starts: Number of start poses, spread over one pitch.
+        removed: Magnets taken out; None for those that the scene lacks.
         seed: Seed of the start poses.
-        present: Which body magnets are in place (M,); None for all.
 
     Returns:
-        The curve.
+        The sweep, whose axis is ``drive_speed_m_s``.
 
     Raises:
         ValueError: The scene has no controlled drive, or a belt speed is beyond its limit.
@@ -122,11 +103,9 @@ def sweep_belt(
     limits = scene.stage_limits
     if limits is None or speeds.min() <= 0.0 or speeds.max() > limits["speed_m_s"] * (1.0 + 1e-9):
         raise ValueError("a belt takes speeds above 0 and up to the limit of a controlled stage")
-    batch = Batch(belt_scene(scene, pitch_m), len(speeds) * starts)
-    batch.set_parameter("drive_speed", np.repeat(speeds / limits["speed_m_s"], starts))
-    if present is not None:
-        batch.set_magnets_present(np.tile(present, (batch.num_envs, 1)))
+    worms = Runner(belt_scene(scene, pitch_m), len(speeds) * starts, removed)
+    worms.batch.set_parameter("drive_speed", np.repeat(speeds / limits["speed_m_s"], starts))
     start = np.tile(belt_starts(pitch_m, starts, seed), (len(speeds), 1))
-    seeds = np.tile(np.arange(starts, dtype=np.uint64) + np.uint64(seed), len(speeds))
-    measured = crawl_speed_m_s(batch, trial, seeds, start=start)
-    return BeltCurve(pitch_m, speeds, measured.reshape(len(speeds), starts))
+    seeds = np.tile(np.arange(starts) + seed, len(speeds))
+    measured = trial.speed_m_s(worms, seeds, start=start)
+    return Sweep({"drive_speed_m_s": speeds}, measured.reshape(len(speeds), starts))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym._magworm import Batch
+from magworm_gym.baselines.runner import Runner
 
 Floats = NDArray[np.float64]
 
@@ -63,27 +63,27 @@ class PeriodicStrokes:
         self._points = np.concatenate([points, points[:, :1]], axis=1)
         self._steps = 0
 
-    def start(self, batch: Batch) -> None:
+    def start(self, worms: Runner) -> None:
         """Begins every stroke at its first control point.
 
         Raises:
             ValueError: There are neither one nor N strokes.
         """
-        if len(self._period_s) not in (1, batch.num_envs):
-            raise ValueError(f"{len(self._period_s)} strokes do not fit {batch.num_envs} environments")
+        if len(self._period_s) not in (1, worms.num_envs):
+            raise ValueError(f"{len(self._period_s)} strokes do not fit {worms.num_envs} environments")
         self._steps = 0
 
-    def act(self, batch: Batch) -> Floats:
+    def act(self, worms: Runner) -> Floats:
         """Actions (N, 3) at the time since ``start``."""
-        return np.asarray(self.plan(batch, 1)[0])
+        return np.asarray(self.plan(worms, 1)[0])
 
-    def plan(self, batch: Batch, steps: int) -> Floats:
+    def plan(self, worms: Runner, steps: int) -> Floats:
         """Actions (T, N, 3) of the next control steps."""
-        time_s = (self._steps + np.arange(steps))[:, None] * batch.scene.control_step_s
+        time_s = (self._steps + np.arange(steps))[:, None] * worms.scene.control_step_s
         self._steps += steps
         place = time_s / self._period_s % 1.0 * (self._points.shape[1] - 1)
         before = np.minimum(place.astype(np.int64), self._points.shape[1] - 2)
         share = (place - before)[..., None]
         every = np.arange(len(self._period_s))
         actions = (1.0 - share) * self._points[every, before] + share * self._points[every, before + 1]
-        return np.array(np.broadcast_to(actions, (steps, batch.num_envs, 3)))
+        return np.array(np.broadcast_to(actions, (steps, worms.num_envs, 3)))

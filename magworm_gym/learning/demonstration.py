@@ -6,14 +6,12 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from magworm_gym.baselines import AIMS, FAMILIES, CycleSearch, Family, Steered
 from magworm_gym.learning.command_line import UsageError
-from magworm_gym.learning.compare.goal_search import SearchSize, searched
-from magworm_gym.learning.compare.pilots import FAMILIES, Family, Steered
 from magworm_gym.learning.sb3 import Sb3Learner, statistics
 from magworm_gym.sb3 import MagWormSB3VecEnv
 
-TASKS = ("turn", "reach")
-SEARCH = SearchSize(seeds=1, scouts=128, population=16, generations=10, starts=2, duration_s=5.0)
+SEARCH = CycleSearch(scouts=128, population=16, generations=10, starts=2, duration_s=5.0)
 """How the teacher is found: the search that the small budget gives a rival."""
 STEPS = 200
 NOISE = 0.15
@@ -35,8 +33,8 @@ def family_of(learner: Sb3Learner) -> Family:
     name, worms = learner.options.teacher, learner.robots.worms
     if name not in FAMILIES:
         raise UsageError(f"teacher is {name!r}; allowed: {', '.join(FAMILIES)}")
-    if learner.normalisation is None or worms.task.name not in TASKS:
-        raise UsageError(f"teacher is {name!r}; allowed with normalise = true for {' and '.join(TASKS)}")
+    if learner.normalisation is None or type(worms.task) not in AIMS:
+        raise UsageError(f"teacher is {name!r}; allowed with normalise = true for turning and reaching")
     if FAMILIES[name].scene(worms.scene) != worms.scene:
         raise UsageError(f"teacher is {name!r}; allowed with its own drive, not that of {worms.scene.name!r}")
     return FAMILIES[name]
@@ -54,8 +52,8 @@ def teach(learner: Sb3Learner) -> int:
     robots, normalisation, seed = learner.robots, learner.normalisation, learner.place.seed
     assert normalisation is not None, "a learner with a teacher has statistics"
     family, scene = family_of(learner), robots.worms.scene
-    found = searched(scene, robots.worms.task.name, family, SEARCH, seed)
-    cycle = family.cycle(np.array(found["parameters"]), scene.stage_limits or {})
+    found = SEARCH.found(scene, robots.worms.task, family, seed)
+    cycle = family.cycle(found.parameters, scene.stage_limits or {})
     seen, actions, returns = _shown(robots, Steered([cycle]), seed, learner.options.gamma)
     of_observations, of_returns = statistics(normalisation)
     of_observations.mean = seen.mean(axis=0, dtype=np.float64)
@@ -64,8 +62,7 @@ def teach(learner: Sb3Learner) -> int:
     of_observations.count = of_returns.count = float(len(seen))
     values = returns / np.sqrt(returns.var() + normalisation.epsilon)
     _fit(learner.model, np.asarray(normalisation.normalize_obs(seen)), actions, values)
-    search_steps: int = round(found["simulated_s"] / scene.control_step_s)
-    return len(seen) + search_steps
+    return len(seen) + round(SEARCH.simulated_s / scene.control_step_s)
 
 
 def _shown(
@@ -77,7 +74,7 @@ def _shown(
     teacher.start(robots.worms)
     seen, wanted, rewards, dones = [], [], [], []
     for _ in range(STEPS):
-        actions = teacher.act(observations)
+        actions = teacher.answer(observations)
         seen.append(observations)
         wanted.append(actions)
         disturbed = generator.random((len(actions), 1)) < NOISY_SHARE

@@ -65,16 +65,14 @@ class Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaul
         columns: Its columns.
         rows: Cells by the keys of the columns; a row may hold more than is shown.
         heading: What stands above it.
-        note: A paragraph below it.
     """
 
     columns: list[Column]
     rows: list[dict[str, str | float | Interval]]
     heading: str = ""
-    note: str = ""
 
     def markdown(self) -> str:
-        """The table in Markdown, without heading and note."""
+        """The table in Markdown, without its heading."""
         lines = [[column.heading for column in self.columns], ["---"] * len(self.columns)]
         lines += [[column.text(row[column.key]) for column in self.columns] for row in self.rows]
         return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
@@ -98,7 +96,7 @@ class Report(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         texts = [f"# {self.title}"]
         for part in self.parts.values():
             if isinstance(part, Table):
-                texts += [part.heading and f"## {part.heading}", part.markdown(), part.note]
+                texts += [part.heading and f"## {part.heading}", part.markdown()]
             else:
                 texts.append(part)
         return "\n\n".join(text for text in (*texts, pictures) if text) + "\n"

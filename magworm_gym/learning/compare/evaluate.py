@@ -1,152 +1,162 @@
-"""Compares a learned controller with tuned drives: ``python training/evaluate.py --help``."""
+"""The command that compares learned policies with other drives: ``python training/evaluate.py --help``."""
 
 from __future__ import annotations
 
+import shlex
+import sys
+import time
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from magworm_gym import Scene
-from magworm_gym.atomic_files import write_json, write_text
+import gymnasium
+
+from magworm_gym import arguments_of
+from magworm_gym.atomic_files import write_text
 from magworm_gym.learning.command_line import Parser, UsageError, positive
-from magworm_gym.learning.compare.evaluation_settings import Budget, read_budget
-from magworm_gym.learning.settings import TrainingSettings, read_saved_settings
-from magworm_gym.learning.train import SCENE, SETTINGS, train
+from magworm_gym.learning.compare.budget import Budget, read_budget
+from magworm_gym.learning.compare.contest import Contest
+from magworm_gym.learning.compare.crawl import CrawlContest
+from magworm_gym.learning.compare.goals import GoalContest
+from magworm_gym.learning.compare.rows import Training
+from magworm_gym.learning.compare.stages import Stages
+from magworm_gym.learning.owner import owned
+from magworm_gym.learning.results import Report, Table
+from magworm_gym.learning.settings import TrainingSettings, merged, read_saved_settings, read_settings
+from magworm_gym.learning.train import ENVIRONMENTS, SETTINGS, train
+from magworm_gym.policy import load_policy
+from magworm_gym.tasks import Crawl, Reach, Task, Turn
 
-if TYPE_CHECKING:
-    from magworm_gym.learning.compare.comparison import Comparison
-    from magworm_gym.learning.compare.report import Result
-
-ANIMATION_PANELS = ("learned policy", "belt, 125 mm pitch", "shuttle", "CMA-ES stroke")
-GIF_EVERY = 3
-GIF_SCALE = 0.5
+BUDGETS = "budgets"
+CONTESTS: dict[type[Task], type[Contest]] = {Crawl: CrawlContest, Turn: GoalContest, Reach: GoalContest}
+"""Comparisons by the task."""
 
 
-def main(arguments: list[str]) -> None:
-    """Reads the command line, compares, writes the report and prints its tables last.
+def main(arguments: list[str], configs: Path | None = None) -> None:
+    """Reads the command line, compares, writes the report and prints verdict and tables last.
 
     Args:
         arguments: Command line without the program's name.
+        configs: Folder with settings of trainings, and with budgets in a folder of that name.
 
     Raises:
         UsageError: A flag, a setting or a folder is not usable.
         SceneError: The scene cannot be simulated.
+        KeyboardInterrupt: Ctrl-C; the message says how to go on.
     """
     flags = _parser().parse_args(arguments)
+    identifier = ENVIRONMENTS.get(flags.environment, flags.environment)
     if flags.policies is not None and flags.scene is not None:
         raise UsageError(
             "--scene goes with a new training; policies are compared on the scene they were trained on"
         )
-    out = Path(flags.out)
-    budget = read_budget(flags.budget, flags.scene)
-    folder = Path(flags.policies) if flags.policies is not None else out / "training"
-    settings = _settings(folder, budget, given=flags.policies is not None)
-    out.mkdir(parents=True, exist_ok=True)
-    print(evaluate(budget, settings, folder, out, flags.workers))
+    named = (configs or Path()) / BUDGETS / f"{flags.budget}.toml"
+    path = named if named.exists() else Path(flags.budget)
+    out = Path(flags.out or f"runs/{flags.environment.rpartition('/')[2]}-comparison")
+    folder = Path(flags.policies) if flags.policies else out / "training"
+    budget = read_budget(path, identifier, CONTESTS[type(task_of(identifier))].budget_kind)
+    wanted = settings_of(budget, identifier, configs, flags.scene)
+    settings = _kept(folder, wanted, given=bool(flags.policies))
+    try:
+        began = time.monotonic()
+        report = evaluate(budget, settings, folder, out, flags.workers)
+        if flags.keep:
+            report.write(Path(flags.keep))
+        print(f"report: {out / 'report.md'}, {time.monotonic() - began:.0f} s\n\n{_summary(report)}")
+    except KeyboardInterrupt:
+        words = shlex.join([Path(sys.executable).name, sys.argv[0], *arguments])
+        raise KeyboardInterrupt(f"this goes on with what is complete: {words}") from None
 
 
 def evaluate(
     budget: Budget, settings: TrainingSettings, folder: Path, out: Path, workers: int | None = None
-) -> str:
+) -> Report:
     """Runs all stages; those that an earlier run has finished are kept.
 
     Args:
-        budget: Sizes of sweeps, searches and measurements.
+        budget: Sizes of searches and measurements.
         settings: Settings of the training.
         folder: Folder of the training; what is missing of it is trained.
         out: Folder of the report.
         workers: Seeds trained side by side; None for the number of cores.
 
     Returns:
-        Verdict and tables, to print.
+        The report, which also stands in ``results.json`` and, with figures, in ``report.md``.
     """
-    from magworm_gym.learning.compare import report
-    from magworm_gym.learning.compare.comparison import Comparison, Policies
-    from magworm_gym.learning.compare.stages import Stages
-
-    summaries = train(settings, folder, workers)
-    scene = Scene.from_toml((folder / SCENE).read_text(encoding="utf-8"))
-    policies = Policies(folder, settings.algorithm, summaries)
-    comparison = Comparison(scene, policies, budget, Stages(out / "stages"))
-    by_robot = {
-        comparison.name(robot): report.results_of(comparison.rows(robot)) for robot in comparison.robots
-    }
-    _draw(comparison, by_robot, out)
-    write_json(out / "results.json", report.results_json(comparison, by_robot))
-    write_text(out / "report.md", report.report(comparison, by_robot, _training_text(settings, summaries)))
-    whole = next(iter(by_robot.values()))
-    parts = [report.verdict(whole), report.table(comparison, whole)]
-    if len(by_robot) > 1:
-        parts.insert(1, report.robots_table(comparison, by_robot))
-    return "\n\n".join(["", f"report: {out / 'report.md'}", *parts])
-
-
-def _draw(comparison: Comparison, by_robot: dict[str, list[Result]], out: Path) -> None:
-    """Draws figures and animation of the whole robot."""
     from magworm_gym.learning.compare import figures
-    from magworm_gym.render.animation import write_gif, write_mp4
-    from magworm_gym.render.race import race_frames
 
-    whole = next(iter(by_robot.values()))
-    rows = [result.row for result in whole]
-    figures.draw_speeds(out / "speeds.png", by_robot)
-    figures.draw_speed_curves(out / "speed_curves.png", comparison, whole)
-    figures.draw_learning_curves(out / "learning_curves.png", comparison, whole)
-    recordings = comparison.recordings(comparison.whole, rows, comparison.budget.final.animation_s)
-    figures.draw_portraits(out / "portraits.png", recordings, comparison.scene.stage_limits or {})
-    panels = {title: recordings[title] for title in ANIMATION_PANELS}
-    geometry = {title: comparison.scene.geometry for title in panels}
-    fps = 1.0 / comparison.scene.control_step_s
-    frames = list(race_frames(panels, geometry))
-    write_mp4(out / "race.mp4", frames, fps)
-    write_gif(out / "race.gif", frames[::GIF_EVERY], fps / GIF_EVERY, GIF_SCALE)
+    task = task_of(settings.environment_id, settings.environment)
+    training = Training(folder, settings, train(settings, folder, workers))
+    scene = load_policy(next(iter(training.folders.values()))).scene
+    with owned(out):
+        contest = CONTESTS[type(task)](task, scene, budget, training)
+        found = contest.compared(Stages(out / "stages"))
+        report = contest.report(found)
+        report.data.update(contest.plain(found))
+        report.write(out / "results.json")
+        write_text(out / "report.md", report.markdown(figures.DRAWN[type(contest)](contest, found, out)))
+    return report
 
 
-def _settings(folder: Path, budget: Budget, *, given: bool) -> TrainingSettings:
-    """Settings of the training in a folder, or of the one that the budget asks for."""
-    if given or (folder / SETTINGS).exists():
-        kept = read_saved_settings(folder / SETTINGS)
-        if not given and kept != budget.training:
-            raise UsageError(f"{folder} holds a training with other settings: choose another --out")
-        return kept
-    return budget.training
+def task_of(environment_id: str, arguments: Mapping[str, Any] | None = None) -> Task:
+    """The task of an environment that there is a comparison for.
+
+    Raises:
+        UsageError: There is none.
+    """
+    try:
+        task: Task = arguments_of(environment_id, **(arguments or {}))["task"]
+    except (ValueError, gymnasium.error.Error) as error:
+        raise UsageError(f"environment is {environment_id!r}: {error}") from None
+    if type(task) not in CONTESTS:
+        raise UsageError(f"environment is {environment_id!r}; allowed: one of crawling, turning or reaching")
+    return task
 
 
-def _training_text(settings: TrainingSettings, summaries: list[dict[str, Any]]) -> str:
-    steps, simulated_s = summaries[0]["steps"], summaries[0]["simulated_s"]
-    randomise = settings.environment.get("randomise", {})
-    removed, parameters = randomise.get("removed", 0.0), randomise.get("parameters", 0.0)
-    return (
-        f"Learned policy: {settings.algorithm.upper()} (Stable-Baselines3), seeds "
-        f"{', '.join(str(seed) for seed in settings.seeds)}, {steps} environment steps = {simulated_s:.0f} "
-        f"simulated seconds for each, {settings.num_envs} environments, evaluated with its mean action. "
-        f"{removed:.0%} of the training robots lack magnets where three are left, parameters "
-        f"spread by {parameters:.0%}."
-    )
+def settings_of(
+    budget: Budget, environment_id: str, configs: Path | None, scene: str | None = None
+) -> TrainingSettings:
+    """Settings of the training that a budget asks for.
+
+    Raises:
+        UsageError: A setting is unknown or out of range.
+    """
+    file = configs / f"{budget.training.get('algorithm', 'ppo')}.toml" if configs else None
+    changes = {"environment": {"scene": scene}} if scene else {}
+    return read_settings(file, environment_id, merged(budget.training, changes))
+
+
+def _kept(folder: Path, wanted: TrainingSettings, *, given: bool) -> TrainingSettings:
+    """Settings of the training in a folder, or those that are wanted where there is none yet."""
+    if not given and not (folder / SETTINGS).exists():
+        return wanted
+    kept = read_saved_settings(folder / SETTINGS)
+    if given and kept.environment_id != wanted.environment_id:
+        raise UsageError(f"{folder} holds policies for {kept.environment_id}, not {wanted.environment_id}")
+    if not given and kept != wanted:
+        raise UsageError(f"{folder} holds a training with other settings: choose another --out")
+    return kept
+
+
+def _summary(report: Report) -> str:
+    """Verdict and tables, that of the whole robot last."""
+    names = ("verdict", "robots", "intact", "limits")
+    parts = [report.parts[name] for name in names if name in report.parts]
+    return "\n\n".join(part.markdown() if isinstance(part, Table) else part for part in parts)
 
 
 def _parser() -> Parser:
     parser = Parser(
         prog="evaluate.py",
-        description="Compares a learned policy with belts, a shuttle and a CMA-ES stroke on the same robot "
-        "and limits. A run that was stopped goes on when the same command is given again.",
+        description="Compares learned policies with tuned and searched drives on the same robot and limits. "
+        "A run that was stopped goes on when the same command is given again.",
     )
-    parser.add_argument(
-        "--budget", default="small", metavar="NAME",
-        help="small (a quarter of an hour on two cores), full, or a TOML file (default: %(default)s)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--policies",
-        metavar="FOLDER",
-        help="--out of a train.py run (default: trains into the folder training of --out)",
-    )
-    parser.add_argument(
-        "--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)"
-    )
-    parser.add_argument("--scene", help="preset or path of a TOML file to train and compare on")
-    parser.add_argument(
-        "--out",
-        default="runs/crawl-comparison",
-        metavar="FOLDER",
-        help="folder of the report (default: %(default)s)",
-    )
+    add = parser.add_argument
+    add("environment", nargs="?", default="crawl", help="crawl (the default), turn, reach, or an identifier")
+    add("--budget", default="small", metavar="NAME", help="smoke, small (the default), full, or a TOML file")
+    add("--policies", metavar="FOLDER", help="--out of train.py; left out, trains into the folder of --out")
+    add("--workers", type=positive, metavar="N", help="seeds trained side by side (default: one per core)")
+    add("--scene", help="preset or path of a TOML file to train and compare on")
+    add("--out", metavar="FOLDER", help="folder of the report (default: runs/ENVIRONMENT-comparison)")
+    add("--keep", metavar="FILE", help="also keeps the report as data here, such as docs/results/crawl.json")
     return parser
