@@ -72,7 +72,8 @@ study-peak: need-valgrind install-test count-program  ## arithmetic of a step ag
 	$(VENV_PYTHON) -m studies render peak
 
 study-stability: install-test  ## stiff and extreme scenes, the explicit scheme's largest step: docs/stability.md
-	$(VENV_PYTHON) -m studies.stability
+	$(VENV_PYTHON) -m studies measure stability
+	$(VENV_PYTHON) -m studies render stability
 
 test: lint test-rust test-docs test-wheel test-python  ## lint and all tests; CI runs `make test count`
 

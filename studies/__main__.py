@@ -11,6 +11,7 @@ MODULES = {
     "paper": "studies.paper.study",
     "peak": "studies.peak.study",
     "speed": "studies.speed.study",
+    "stability": "studies.stability.study",
     "turning": "studies.turning.study",
     "validation": "studies.validation.study",
 }

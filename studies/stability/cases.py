@@ -1,17 +1,23 @@
 """Cases of the sweeps and what became of them."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations, product
 
 import numpy as np
 
 from magworm_gym import Recording, Scene, SceneError, record_scenes
-from studies.stability.axes import ALONE, INSIDE, LONGER, STEP, Axis, Changes, base_scene
+from studies.kit.passes import MM
+from studies.stability.axes import ALONE, AXES, INSIDE, LONGER, STEP, Axis, Changes, base_scene
+from studies.stability.starts import STARTS, places, starting
 
 INTEGRATORS = ("newmark", "euler", "explicit")
 STEP_S = {"newmark": 2e-3, "euler": 2e-3, "explicit": 4e-6}
 """Where it is not what is swept: that of the presets, and one that the explicit scheme can take."""
+SHORT_S = 2e-4
+"""Ours: a step for what springs open fast."""
+EXPLICIT_S = {("rod", 2): 4e-6, ("rod", 3): 4e-6, ("robot", 2): 4e-6, ("robot", 3): 5e-7}
+"""Ours: steps of bent bodies, below their limits."""
 DURATION_S = {("rod", "explicit"): 0.1, ("robot", "explicit"): 0.05}
 """Ours: how long explicit cases run; their steps are hundreds of times shorter."""
 LONG_S = 0.6
@@ -19,8 +25,8 @@ LONG_S = 0.6
 SAMPLE_S = 0.05
 FINER = 8
 """A step this many times shorter tells what is accurate."""
-SHORTEST_S = 1e-5
-"""The shortest step that the implicit schemes may take."""
+SHORTEST_S = {"newmark": 1e-5, "euler": 1e-5, "explicit": 2.5e-7}
+"""The shortest step that tells it: that of the implicit schemes is their shortest, the other is ours."""
 TOLERANCE = 0.02
 """Ours: greatest distance of any node from where the shorter step has it, over the body's length."""
 VERDICTS = ("accurate", "stable", "refused", "broken")
@@ -34,35 +40,55 @@ class Case:
         body: Rod or robot.
         dimensions: 2 or 3.
         integrator: Which scheme.
-        settings: The axes that are set, with their values.
-        finer: By how much the step is shorter than asked for.
+        axis: Title of the axis that is set.
+        value: Its value.
+        second_axis: Title of another that is set; empty where there is none.
+        second_value: Its value.
+        start: How the body is bent at the start; empty where it is straight.
     """
 
     body: str
     dimensions: int
     integrator: str
-    settings: tuple[tuple[Axis, float], ...]
-    finer: int = 1
+    axis: str
+    value: float
+    second_axis: str = ""
+    second_value: float | None = None
+    start: str = ""
 
-    def scene(self) -> Scene:
+    def scene(self, finer: int = 1) -> Scene:
         """The scene.
+
+        Args:
+            finer: By how much the step is shorter.
 
         Raises:
             SceneError: A scene that cannot be simulated.
         """
-        step_s = STEP_S[self.integrator]
-        changes: Changes = {"solver.step_s": step_s, "solver.integrator": self.integrator}
-        for axis, value in self.settings:
-            changes |= axis.changes(value)
-        changes["solver.step_s"] /= self.finer
-        if self.finer > 1 and self.integrator != "explicit":
-            changes["solver.step_s"] = max(SHORTEST_S, changes["solver.step_s"])
+        changes: Changes = {"solver.step_s": STEP_S[self.integrator], "solver.integrator": self.integrator}
+        changes |= starting(self.body, self.start) | AXES[self.axis].changes(self.value)
+        if self.second_value is not None:
+            changes |= AXES[self.second_axis].changes(self.second_value)
+        if finer > 1:
+            changes["solver.step_s"] = max(SHORTEST_S[self.integrator], changes["solver.step_s"] / finer)
         return base_scene(self.body, self.dimensions).with_values(changes)
 
     @property
     def duration_s(self) -> float:
         """For how long it runs [s]."""
         return DURATION_S.get((self.body, self.integrator), LONG_S)
+
+    @property
+    def scheme(self) -> str:
+        """Scheme and step, for bent starts."""
+        unit = f"{self.value:g} ms" if self.value >= 0.1 else f"{MM * self.value:g} µs"
+        return f"{self.integrator} {unit}"
+
+    @property
+    def shortest(self) -> bool:
+        """Whether it has an implicit step that cannot be shortened."""
+        set_ms = self.value if self.axis == STEP.title else MM * STEP_S[self.integrator]
+        return self.integrator != "explicit" and set_ms <= MM * SHORTEST_S[self.integrator]
 
 
 @dataclass(frozen=True)
@@ -80,7 +106,7 @@ class Outcome:
     case: Case
     verdict: str
     error: float
-    sentence: str
+    sentence: str = ""
 
 
 def alone(body: str, axis: Axis, dimensions: int, *, long: bool = False) -> list[Case]:
@@ -88,7 +114,7 @@ def alone(body: str, axis: Axis, dimensions: int, *, long: bool = False) -> list
     everything = long or dimensions == 2
     integrators = INTEGRATORS if everything else ("newmark", "explicit")
     values = axis.values if everything else axis.ends
-    return [Case(body, dimensions, scheme, ((axis, value),)) for scheme in integrators for value in values]
+    return [Case(body, dimensions, scheme, axis.title, value) for scheme in integrators for value in values]
 
 
 def crossed(body: str, pair: tuple[Axis, Axis]) -> list[Case]:
@@ -96,20 +122,39 @@ def crossed(body: str, pair: tuple[Axis, Axis]) -> list[Case]:
     first, second = pair
     integrators = INTEGRATORS if body == "rod" else ("newmark",)
     return [
-        Case(body, 2, integrator, ((first, a), (second, b)))
+        Case(body, 2, integrator, first.title, a, second.title, b)
         for integrator, a, b in product(integrators, first.values, second.values)
     ]
 
 
-def every_pair() -> list[Case]:
+def every_pair() -> Iterator[Case]:
     """Every pair of axes at both ends and in the middle of each, in the plane and in space."""
-    cases = []
     for body, axes in ALONE.items():
         kept = [LONGER if axis is STEP else axis for axis in axes if axis is not INSIDE]
         for (first, second), integrator in product(combinations(kept, 2), INTEGRATORS):
             for dimensions, a, b in product((2, 3), first.ends, second.ends):
-                cases.append(Case(body, dimensions, integrator, ((first, a), (second, b))))
-    return cases
+                yield Case(body, dimensions, integrator, first.title, a, second.title, b)
+
+
+def bent() -> list[Case]:
+    """Every bent start under every scheme, in the plane where it lies there, and in space."""
+    return [
+        case
+        for body, named in STARTS.items()
+        for start in named
+        for dimensions in places(body, start)
+        for case in bent_start(body, start, dimensions)
+    ]
+
+
+def bent_start(body: str, start: str, dimensions: int) -> list[Case]:
+    """A bent start under every scheme, the default one with two steps."""
+    steps_s = [(name, STEP_S[name]) for name in ("newmark", "euler")]
+    steps_s[1:1] = [("newmark", SHORT_S)]
+    steps_s.append(("explicit", EXPLICIT_S[body, dimensions]))
+    return [
+        Case(body, dimensions, scheme, STEP.title, MM * step_s, start=start) for scheme, step_s in steps_s
+    ]
 
 
 def judge(cases: Sequence[Case], *, accuracy: bool = True) -> list[Outcome]:
@@ -122,17 +167,22 @@ def judge(cases: Sequence[Case], *, accuracy: bool = True) -> list[Outcome]:
     Raises:
         RuntimeError: A number that is not finite left the simulator, whatever the case's status.
     """
-    plain, refusals = _runs(cases)
-    finer, _ = _runs([replace(case, finer=FINER) for case in cases] if accuracy else [])
-    return [_outcome(case, plain.get(i), finer.get(i), refusals.get(i, "")) for i, case in enumerate(cases)]
+    plain, refusals = _runs(cases, 1)
+    finer, _ = _runs(cases if accuracy else [], FINER)
+    return [
+        Outcome(case, "refused", np.nan, refusals[i])
+        if i in refusals
+        else _outcome(case, plain[i], finer.get(i))
+        for i, case in enumerate(cases)
+    ]
 
 
-def _runs(cases: Sequence[Case]) -> tuple[dict[int, Recording], dict[int, str]]:
+def _runs(cases: Sequence[Case], finer: int) -> tuple[dict[int, Recording], dict[int, str]]:
     """Recordings of the cases that run, and the sentences of those that are refused, by their place."""
     scenes, refusals = {}, {}
     for i, case in enumerate(cases):
         try:
-            scenes[i] = case.scene()
+            scenes[i] = case.scene(finer)
         except SceneError as error:
             refusals[i] = str(error)
     durations = [cases[i].duration_s for i in scenes]
@@ -143,21 +193,12 @@ def _runs(cases: Sequence[Case]) -> tuple[dict[int, Recording], dict[int, str]]:
     return dict(zip(scenes, found, strict=True)), refusals
 
 
-def _outcome(case: Case, plain: Recording | None, finer: Recording | None, refusal: str) -> Outcome:
-    if plain is None:
-        return Outcome(case, "refused", np.nan, refusal)
+def _outcome(case: Case, plain: Recording, finer: Recording | None) -> Outcome:
     if plain.broken is not None:
         return Outcome(case, "broken", np.nan, plain.broken)
-    if finer is None or finer.broken is not None or _step_ms(case) <= 1e3 * SHORTEST_S:
-        return Outcome(case, "stable", np.nan, "")
+    if finer is None or finer.broken is not None or case.shortest:
+        return Outcome(case, "stable", np.nan)
     apart_m = np.linalg.norm(plain.nodes - finer.nodes, axis=-1).max()
     rest_m = np.linalg.norm(np.diff(plain.nodes[0], axis=0), axis=-1).sum()
     error = float(apart_m / rest_m)
-    return Outcome(case, "accurate" if error <= TOLERANCE else "stable", error, "")
-
-
-def _step_ms(case: Case) -> float:
-    """The step of an implicit case [ms]; explicit ones have no shortest, so infinite."""
-    if case.integrator == "explicit":
-        return np.inf
-    return next((value for axis, value in case.settings if axis is STEP), 1e3 * STEP_S[case.integrator])
+    return Outcome(case, "accurate" if error <= TOLERANCE else "stable", error)

@@ -12,6 +12,7 @@ import numpy as np
 
 from magworm_gym import Scene, SceneError
 from magworm_gym._magworm import Batch
+from studies.kit.passes import values_of
 
 SOFTER = 1e3
 STEPS = 4000
@@ -48,15 +49,20 @@ class Limit:
         name: Which rod.
         dimensions: 2 or 3.
         predicted_s: What the simulator says [s].
-        reason: What limits it, in its words.
         found_s: What bisection found [s].
+        reason: What limits it, in the simulator's words.
     """
 
     name: str
     dimensions: int
     predicted_s: float
-    reason: str
     found_s: float
+    reason: str
+
+    @property
+    def ratio(self) -> float:
+        """Found over predicted."""
+        return self.found_s / self.predicted_s
 
 
 def limits(names: Sequence[str] = tuple(RODS)) -> list[Limit]:
@@ -66,7 +72,7 @@ def limits(names: Sequence[str] = tuple(RODS)) -> list[Limit]:
         for dimensions in (2, 3):
             scene = rod(name, dimensions)
             predicted_s, reason = scene.explicit_limit()
-            found.append(Limit(name, dimensions, predicted_s, reason, _bisected(scene, predicted_s)))
+            found.append(Limit(name, dimensions, predicted_s, _bisected(scene, predicted_s), reason))
     return found
 
 
@@ -102,7 +108,7 @@ def stays(scene: Scene, step_s: float) -> bool:
         "solver.step_s": step_s,
         "control.step_s": step_s,
         "control.episode_s": STEPS * step_s,
-        "material.youngs_modulus_pa": _modulus_pa(scene) / SOFTER,
+        "material.youngs_modulus_pa": values_of(scene)["material"]["youngs_modulus_pa"] / SOFTER,
     }
     batch = Batch(scene.with_values(changes), 1, lanes="scalar", threads=1)
     batch.set_parameter("stiffness", np.array([SOFTER]))
@@ -111,11 +117,6 @@ def stays(scene: Scene, step_s: float) -> bool:
     batch.advance(STEPS * step_s)
     strayed_m = np.linalg.norm(batch.node_positions() - rest, axis=-1).max()
     return bool(batch.status()[0] == 0 and strayed_m < STRAYED * scene.body_length_m)
-
-
-def _modulus_pa(scene: Scene) -> float:
-    line = next(line for line in scene.to_toml().splitlines() if line.startswith("youngs_modulus_pa"))
-    return float(line.split("=")[1])
 
 
 def refusal() -> str:

@@ -1,0 +1,109 @@
+"""What the page asks of the results."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from studies.kit.page import table
+from studies.kit.words import exponent, number, plain
+from studies.stability.axes import Axis
+from studies.stability.cases import INTEGRATORS, VERDICTS, Outcome, bent_start
+from studies.stability.energy import Swing
+from studies.stability.starts import STARTS, places
+
+WHERE = {2: "plane", 3: "space"}
+
+
+def verdicts(outcomes: Iterable[Outcome], integrator: str, dimensions: Sequence[int] = (2, 3)) -> list[int]:
+    """How often each verdict was given to cases under a scheme."""
+    cases = ((outcome.verdict, outcome.case) for outcome in outcomes)
+    counts = Counter(
+        verdict for verdict, of in cases if of.integrator == integrator and of.dimensions in dimensions
+    )
+    return [counts[verdict] for verdict in VERDICTS]
+
+
+def along(axis: Axis, outcomes: Sequence[Outcome]) -> str:
+    """A table of the outcomes along an axis, with a column for each scheme in plane and space."""
+    cells = {(o.case.value, o.case.dimensions, o.case.integrator): cell(o) for o in outcomes}
+    columns = sorted({key[1:] for key in cells}, key=lambda key: (key[0], INTEGRATORS.index(key[1])))
+    head = [axis.title, *(f"{scheme}, {WHERE[dimensions]}" for dimensions, scheme in columns)]
+    rows = [[plain(value), *(cells.get((value, *key), "") for key in columns)] for value in axis.values]
+    return table(head, rows)
+
+
+def starts(body: str, outcomes: Sequence[Outcome]) -> str:
+    """A table of the bent starts of a body."""
+    cells = {(o.case.start, o.case.dimensions, o.case.scheme): cell(o) for o in outcomes}
+    columns = [(of, case.scheme) for of in WHERE for case in bent_start(body, "", of)]
+    head = [body, *(f"{scheme}, {WHERE[dimensions]}" for dimensions, scheme in columns)]
+    rows = [[start, *(cells.get((start, *column), "") for column in columns)] for start in STARTS[body]]
+    return table(head, rows)
+
+
+def described(body: str, start: str) -> str:
+    """The fields that a start sets."""
+    where = ", in space" if places(body, start) == (3,) else ""
+    return ", ".join(f"`{field} = {value}`" for field, value in STARTS[body][start].items()) + where
+
+
+def cell(outcome: Outcome) -> str:
+    """A verdict and the error over the length."""
+    percent = 100.0 * outcome.error
+    if percent != percent:
+        return outcome.verdict
+    return f"{outcome.verdict} {number(percent, 0) if percent >= 10.0 else two_digits(percent)} %"
+
+
+def two_digits(value: float) -> str:
+    """A number with two significant digits."""
+    return exponent(f"{value:.2g}")
+
+
+def sentences(outcomes: Iterable[Outcome]) -> Iterator[str]:
+    """The first refusal that names each field, and every way to break."""
+    refused: dict[str, str] = {}
+    broken: dict[str, str] = {}
+    for outcome in outcomes:
+        if outcome.verdict == "refused":
+            refused.setdefault(outcome.sentence.split(" is ")[0], outcome.sentence)
+        elif outcome.verdict == "broken":
+            broken.setdefault(outcome.sentence, outcome.sentence)
+    yield from (f"Refused, for example: {sentence}." for sentence in refused.values())
+    yield from (f"Broken: {sentence}." for sentence in broken)
+
+
+@dataclass(frozen=True)
+class Energies:
+    """What became of the energy of rods of all stiffnesses, over weight times length.
+
+    Attributes:
+        motion: How they move.
+        integrator: Which scheme.
+        step_ms: Its step [ms].
+        visible: Most that motion and height gained.
+        gain: Most that was gained with what springs hold.
+        lost: Least and most that is missing at the end.
+    """
+
+    motion: str
+    integrator: str
+    step_ms: float
+    visible: float
+    gain: float
+    lost: tuple[float, float]
+
+
+def energies(swings: Sequence[Swing]) -> Iterator[Energies]:
+    """Swings that ran, together for all stiffnesses."""
+
+    def place(swing: Swing) -> tuple[str, str, float]:
+        return swing.motion, swing.integrator, swing.step_ms
+
+    known = [swing for swing in swings if swing.gain == swing.gain]
+    order = list(dict.fromkeys(place(swing)[:2] for swing in known))
+    for key, group in groupby(sorted(known, key=lambda s: (order.index(place(s)[:2]), s.step_ms)), place):
+        same = list(group)
+        visible, gain = (max(0.0, *(getattr(s, name) for s in same)) for name in ("visible", "gain"))
+        yield Energies(*key, visible, gain, (min(s.lost for s in same), max(s.lost for s in same)))
