@@ -178,7 +178,7 @@ def test_friction_is_not_identifiable_where_nothing_slides(tmp_path):
     (finding,) = identify(problem).findings
     assert finding.verdict == "not identifiable"
     assert "any value from 0.3" in finding.sentences()[0]
-    assert np.isinf(finding.alone)
+    assert np.isinf(finding.std_alone)
 
 
 def interrupted_at(stage, done):

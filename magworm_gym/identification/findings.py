@@ -36,12 +36,12 @@ class Finding:
         restarts: Best value of each evolution that fits about as well as the best.
         fits_from: Least value that fits about as well.
         fits_to: Greatest value that fits about as well.
-        part: That range as a part of the bounds [1].
-        deviation: Standard deviation from the Jacobian, as a part of the bounds [1].
-        alone: The same with all other parameters known [1].
-        disagreement: Relative difference of the derivatives at two steps [1].
-        bound: ``"lower"`` or ``"upper"`` where it lies on a bound, or empty.
-        tied: Labels of the parameters that have to follow when it changes.
+        part_of_bounds: That range as a part of the bounds [1].
+        std_joint: Standard deviation from the Jacobian, as a part of the bounds [1].
+        std_alone: The same with all other parameters known [1].
+        derivative_disagreement: Relative difference of the derivatives at two steps [1].
+        on_bound: ``"lower"`` or ``"upper"`` where it lies on a bound.
+        tied_to: Labels of the parameters that have to follow when it changes.
     """
 
     parameter: Parameter
@@ -50,17 +50,17 @@ class Finding:
     restarts: Floats
     fits_from: float
     fits_to: float
-    part: float
-    deviation: float
-    alone: float
-    disagreement: float
-    bound: str
-    tied: tuple[str, ...]
+    part_of_bounds: float
+    std_joint: float
+    std_alone: float
+    derivative_disagreement: float
+    on_bound: str | None
+    tied_to: tuple[str, ...]
 
     @property
     def verdict(self) -> str:
         """``"identified"``, ``"weakly identified"`` or ``"not identifiable"``."""
-        part = max(self.part, self.linear_part)
+        part = max(self.part_of_bounds, self.linear_part)
         if part >= OPEN:
             return "not identifiable"
         return "weakly identified" if part >= LOOSE else "identified"
@@ -72,7 +72,7 @@ class Finding:
         The 95 % interval of the linearised model, at most 1; 0 where the parameter has little influence by
         itself, since the search looks all along its axis.
         """
-        alone, joint = 2.0 * NORMAL_95 * self.alone, 2.0 * NORMAL_95 * self.deviation
+        alone, joint = 2.0 * NORMAL_95 * self.std_alone, 2.0 * NORMAL_95 * self.std_joint
         return min(1.0, joint) if alone < OPEN and not np.isnan(joint) else 0.0
 
     @property
@@ -82,9 +82,9 @@ class Finding:
 
     def sentences(self) -> list[str]:
         """What there is to say about it."""
-        follow = f", together with other values of {' and '.join(self.tied)}" if self.tied else ""
+        follow = f", together with other values of {' and '.join(self.tied_to)}" if self.tied_to else ""
         span = f"{self.fits_from:.4g} to {self.fits_to:.4g}"
-        if self.linear_part >= OPEN > self.part:
+        if self.linear_part >= OPEN > self.part_of_bounds:
             said = (
                 f"{self.verdict} from these data: others can make up for a change of it; values found reach"
             )
@@ -99,14 +99,14 @@ class Finding:
 
     def _remarks(self) -> list[str]:
         more = []
-        if self.bound:
+        if self.on_bound:
             more.append(
-                f"lies on its {self.bound} bound: the data may want it beyond, or it makes up for what "
+                f"lies on its {self.on_bound} bound: the data may want it beyond, or it makes up for what "
                 "the model lacks"
             )
-        if self.disagreement > RUGGED:
+        if self.derivative_disagreement > RUGGED:
             more.append("rugged: its derivatives at two steps disagree, so trust the range more than them")
-        elif np.isnan(self.disagreement):
+        elif np.isnan(self.derivative_disagreement):
             more.append("no neighbour of the best value can be simulated, so derivatives are missing")
         return more
 
@@ -142,12 +142,12 @@ def findings(
                 restarts=np.array([parameter.value(float(unit[at])) for unit in ended]),
                 fits_from=parameter.value(float(low[at])),
                 fits_to=parameter.value(float(high[at])),
-                part=float(high[at] - low[at]),
-                deviation=float(sensed.deviations[at]),
-                alone=float(sensed.alone[at]),
-                disagreement=float(sensed.disagreement[at]),
-                bound="lower" if best[at] < AT_BOUND else "upper" if best[at] > 1.0 - AT_BOUND else "",
-                tied=_tied(space, fitting, at) if high[at] - low[at] >= LOOSE else (),
+                part_of_bounds=float(high[at] - low[at]),
+                std_joint=float(sensed.deviations[at]),
+                std_alone=float(sensed.alone[at]),
+                derivative_disagreement=float(sensed.disagreement[at]),
+                on_bound="lower" if best[at] < AT_BOUND else "upper" if best[at] > 1.0 - AT_BOUND else None,
+                tied_to=_tied(space, fitting, at) if high[at] - low[at] >= LOOSE else (),
             )
         )
     return found

@@ -130,28 +130,16 @@ def as_json(found: Identification) -> dict[str, Any]:
 
 
 def _finding_json(finding: Finding) -> dict[str, Any]:
+    numbers = {key: value for key, value in vars(finding).items() if key not in ("parameter", "restarts")}
     restarts = finding.restarts
-    return {
-        **asdict(finding.parameter),
-        "best": finding.best,
-        "field_value": finding.field_value,
-        "verdict": finding.verdict,
-        "sentences": finding.sentences(),
-        "on_bound": finding.bound or None,
-        "fits_from": finding.fits_from,
-        "fits_to": finding.fits_to,
-        "part_of_bounds": finding.part,
-        "restarts": {
-            "least": restarts.min(),
-            "greatest": restarts.max(),
-            "std": restarts.std(),
-            "count": len(restarts),
-        },
-        "std_alone": finding.alone,
-        "std_joint": finding.deviation,
-        "derivative_disagreement": finding.disagreement,
-        "tied_to": finding.tied,
+    spread = {
+        "least": restarts.min(),
+        "greatest": restarts.max(),
+        "std": restarts.std(),
+        "count": len(restarts),
     }
+    said = {"verdict": finding.verdict, "sentences": finding.sentences(), "restarts": spread}
+    return {**asdict(finding.parameter), **numbers, **said}
 
 
 def _plain(value: Any) -> Any:

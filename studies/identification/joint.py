@@ -15,14 +15,14 @@ without it; a run that was stopped goes on, one that is done is kept. From them 
 import argparse
 import json
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from magworm_gym import Scene
+from magworm_gym.atomic_files import write_json
 from magworm_gym.documents import parse_toml
 from magworm_gym.identification import Problem, identify, read_problem, write_results
 from magworm_gym.identification.claims import Claim
@@ -30,9 +30,8 @@ from magworm_gym.identification.ensemble import alike, coverage, farthest_first
 from magworm_gym.identification.evaluation import Evaluator
 from magworm_gym.identification.identify import base_with
 from magworm_gym.identification.scene_file import commented_scene
+from magworm_gym.recording import Floats
 from studies.kit.page import page
-
-Floats = NDArray[np.float64]
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -96,9 +95,56 @@ class Search:
         claims = [aim for aim in self.problem.aims if isinstance(aim, Claim)]
         return [claim.name for claim in claims if claim.table.group == self.without]
 
+    def pool(self, limit: float, labels: list[str]) -> Floats:
+        """Parameters (K, P) of the candidates within a limit, as fitted numbers, best first."""
+        space = self.problem.space
+        columns = [[parameter.label for parameter in space.parameters].index(label) for label in labels]
+        units = self.units[self.losses <= limit]
+        return np.array([space.fitted(unit)[columns] for unit in units]).reshape(-1, len(labels))
+
     def missed(self) -> list[str]:
         """Fitted targets that its best candidate misses."""
         return [each["name"] for each in self.report["targets"] if each["fitted"] and not each["met"]]
+
+
+@dataclass(frozen=True)
+class Blind:
+    """Runs from blind starts."""
+
+    runs: list[Search]
+
+    @cached_property
+    def best(self) -> Search:
+        """The run with the least loss."""
+        return min(self.runs, key=lambda run: run.loss)
+
+    @cached_property
+    def limit(self) -> float:
+        """Loss up to which a robot fits about as well as the best of all runs [1]."""
+        return self.best.problem.limit(self.best.loss)
+
+    @cached_property
+    def labels(self) -> list[str]:
+        """Labels of the parameters (P) that all problems have."""
+        first, *others = (
+            [parameter.label for parameter in run.problem.space.parameters] for run in self.runs
+        )
+        return [label for label in first if all(label in each for each in others)]
+
+    @cached_property
+    def pools(self) -> list[Floats]:
+        """Parameters (K, P) of the candidates of each run within the limit, as fitted numbers, best first."""
+        return [run.pool(self.limit, self.labels) for run in self.runs]
+
+    @cached_property
+    def low(self) -> Floats:
+        """Least values of the parameters within the limit (P,)."""
+        return np.asarray(np.vstack(self.pools).min(axis=0))
+
+    @cached_property
+    def high(self) -> Floats:
+        """Greatest values of the parameters within the limit (P,)."""
+        return np.asarray(np.vstack(self.pools).max(axis=0))
 
 
 def main() -> None:
@@ -117,14 +163,16 @@ def main() -> None:
     parser.add_argument("--conditions", type=Path, default=CONDITIONS)
     arguments = parser.parse_args()
     run = partial(finished, arguments.out, {key: getattr(arguments, key) for key in SETTINGS})
-    blind, crossed = [], []
+    searches: list[Search] = []
+    crossed: list[Search] = []
     for problem in arguments.problems:
-        blind += [run(problem, seed) for seed in range(arguments.seeds)]
-        for group in groups(blind[-1].problem):
+        searches += [run(problem, seed) for seed in range(arguments.seeds)]
+        for group in groups(searches[-1].problem):
             crossed += [run(problem, seed, group) for seed in range(arguments.crossed)]
+    blind = Blind(searches)
     chosen = ensemble(blind)
     write_ensemble(arguments.ensemble, blind, chosen)
-    arguments.conditions.write_text(json.dumps(conditions(blind), indent=1) + "\n", encoding="utf-8")
+    write_json(arguments.conditions, conditions(blind))
     arguments.page.parent.mkdir(parents=True, exist_ok=True)
     arguments.page.write_text(report(blind, crossed, chosen), encoding="utf-8")
 
@@ -149,36 +197,13 @@ def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without
     return Search(folder.name, problem, without, report, units, losses)
 
 
-def shared(blind: list[Search]) -> list[str]:
-    """Labels of the parameters that all problems have."""
-    labels = [[parameter.label for parameter in run.problem.space.parameters] for run in blind]
-    return [label for label in labels[0] if all(label in each for each in labels)]
-
-
-def limit(blind: list[Search]) -> float:
-    """Loss up to which a robot fits about as well as the best of all runs [1]."""
-    best = min(blind, key=lambda run: run.loss)
-    return best.problem.limit(best.loss)
-
-
-def pool(run: Search, limit: float, labels: list[str]) -> Floats:
-    """Shared parameters (K, P) of the candidates of a run within a limit, as fitted numbers, best first."""
-    space = run.problem.space
-    columns = [[parameter.label for parameter in space.parameters].index(label) for label in labels]
-    units = run.units[run.losses <= limit]
-    return np.array([space.fitted(unit)[columns] for unit in units]).reshape(-1, len(labels))
-
-
-def ensemble(blind: list[Search]) -> list[int | None]:
+def ensemble(blind: Blind) -> list[int | None]:
     """Place of each run's robot among its candidates."""
-    labels = shared(blind)
-    pools = [pool(run, limit(blind), labels) for run in blind]
-    together = np.vstack(pools)
-    wanted = claims_met(min(blind, key=lambda run: run.loss), 0)
+    wanted = claims_met(blind.best, 0)
     return farthest_first(
-        pools,
-        np.maximum(np.ptp(together, axis=0), 1e-300),
-        lambda number, place: claims_met(blind[number], place) >= wanted,
+        blind.pools,
+        np.maximum(blind.high - blind.low, 1e-300),
+        lambda number, place: claims_met(blind.runs[number], place) >= wanted,
         TRIES,
     )
 
@@ -189,12 +214,12 @@ def claims_met(run: Search, place: int) -> set[str]:
     return {outcome.name for outcome in outcomes if outcome.met}
 
 
-def write_ensemble(folder: Path, blind: list[Search], chosen: list[int | None]) -> None:
+def write_ensemble(folder: Path, blind: Blind, chosen: list[int | None]) -> None:
     """Writes the robots as scenes with three magnets, in place of those that were there."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.toml"):
         old.unlink()
-    members = [(run, place) for run, place in zip(blind, chosen, strict=True) if place is not None]
+    members = [(run, place) for run, place in zip(blind.runs, chosen, strict=True) if place is not None]
     for number, (run, place) in enumerate(members, start=1):
         name = run.problem.base_name
         origins = {parameter.path: "identified" for parameter in run.problem.space.parameters}
@@ -210,37 +235,31 @@ def robot(run: Search, place: int) -> Scene:
     return scene.with_values({"drive.motion": preset["drive"]["motion"], "reset": preset["reset"]})
 
 
-def conditions(blind: list[Search]) -> dict[str, Any]:
+def conditions(blind: Blind) -> dict[str, Any]:
     """What every robot of the ensemble meets: loss, claims, and the intervals that they are to reach over."""
-    labels = shared(blind)
-    together = np.vstack([pool(run, limit(blind), labels) for run in blind])
-    columns = zip(labels, together.min(axis=0).tolist(), together.max(axis=0).tolist(), strict=True)
-    best = min(blind, key=lambda run: run.loss)
+    ends = np.stack([blind.low, blind.high], axis=1).tolist()
     return {
-        "loss": limit(blind),
-        "claims": sorted(claims_met(best, 0)),
-        "intervals": {label: [low, high] for label, low, high in columns},
+        "loss": blind.limit,
+        "claims": sorted(claims_met(blind.best, 0)),
+        "intervals": dict(zip(blind.labels, ends, strict=True)),
     }
 
 
-def report(blind: list[Search], crossed: list[Search], chosen: list[int | None]) -> str:
+def report(blind: Blind, crossed: list[Search], chosen: list[int | None]) -> str:
     """The page."""
-    labels, pools = shared(blind), [pool(run, limit(blind), shared(blind)) for run in blind]
-    together = np.vstack(pools)
-    low, high = together.min(axis=0), together.max(axis=0)
-    robots = np.array([points[at] for points, at in zip(pools, chosen, strict=True) if at is not None])
-    best = min(blind, key=lambda run: run.loss)
+    low, high, best = blind.low, blind.high, blind.best
+    robots = np.array([points[at] for points, at in zip(blind.pools, chosen, strict=True) if at is not None])
     pairs = alike(robots, APART * (high - low), PLACES)
     return page(
         HERE / "joint.md.j2",
-        blind=blind,
+        blind=blind.runs,
         best=best,
-        met_by={name: sum(run.met([name]) for run in blind) for name in best.targets},
-        unmet=unmet(blind, best),
+        met_by={name: sum(run.met([name]) for run in blind.runs) for name in best.targets},
+        unmet=[(name, *cheapest(blind.runs, name)) for name in best.missed()],
         crossed=crossed,
         robots=len(robots),
-        limit=limit(blind),
-        intervals=list(zip(labels, low, high, coverage(robots, low, high), strict=True)),
+        limit=blind.limit,
+        intervals=list(zip(blind.labels, low, high, coverage(robots, low, high), strict=True)),
         covered=COVERED,
         apart=APART,
         places=PLACES,
@@ -248,22 +267,17 @@ def report(blind: list[Search], crossed: list[Search], chosen: list[int | None])
     )
 
 
-def unmet(blind: list[Search], best: Search) -> list[tuple[str, str, float, str]]:
-    """What the best run misses, the best candidate that meets it, its loss, and what that one misses."""
-    rows = []
-    for name in best.missed():
-        meeting = [
-            (float(each["loss"]), run.name, ", ".join(each["missed"]) or "nothing")
-            for run in blind
-            for each in run.report["alternatives"]
-            if each["target"] == name and each["values"] is not None
-        ]
-        meeting += [
-            (run.loss, run.name, ", ".join(run.missed()) or "nothing") for run in blind if run.met([name])
-        ]
-        loss, run_name, missed = min(meeting, default=(np.inf, "none", "–"))
-        rows.append((name, run_name, loss, missed))
-    return rows
+def cheapest(runs: list[Search], name: str) -> tuple[str, float, str]:
+    """The run of the best candidate that meets a target, its loss, and what it misses."""
+    meeting = [
+        (float(each["loss"]), run.name, each["missed"])
+        for run in runs
+        for each in run.report["alternatives"]
+        if each["target"] == name and each["values"] is not None
+    ]
+    meeting += [(run.loss, run.name, run.missed()) for run in runs if run.met([name])]
+    loss, run_name, missed = min(meeting, default=(np.inf, "none", ["–"]))
+    return run_name, loss, ", ".join(missed) or "nothing"
 
 
 if __name__ == "__main__":
