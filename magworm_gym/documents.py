@@ -125,7 +125,8 @@ def _allowed(hint: Any) -> str:
     if get_origin(bare) is Literal:
         return ", ".join(map(str, get_args(bare)))
     words = {float: "a number", int: "a whole number", str: "a text", bool: "true or false"}
-    words.update({list: "a list", tuple: "a list"})
+    tables = any(isinstance(each, type) and issubclass(each, msgspec.Struct) for each in get_args(bare))
+    words.update(dict.fromkeys([list, tuple], "a list of tables" if tables else "a list"))
     said = words.get(get_origin(bare) or bare, "a table")
     if meta is not None and meta.ge is not None:
         said += f" from {meta.ge:g}" + ("" if meta.le is None else f" to {meta.le:g}")

@@ -1,5 +1,6 @@
 """Files and flags of the identification, and what is said of mistakes in them."""
 
+import datetime
 import sys
 from pathlib import Path
 
@@ -274,3 +275,10 @@ def test_commands_without_their_extra_say_which_and_leave_the_others_alone(capsy
     assert said.err.startswith("magworm identify: needs the library ")
     assert said.err.endswith("pip install 'magworm-gym[identify]'\n") and said.err.count("\n") == 1
     assert command(capsys, "policies")[0] == 0
+
+
+def test_values_of_no_type_that_a_scene_has_are_refused():
+    for value in (datetime.date(2026, 1, 1), 2**63, None):
+        made = {**entries(targets=[TARGET]), "values": {"material.damping_time_s": value}}
+        with pytest.raises(ProblemError, match=r"values: material.damping_time_s is .*; (allowed|leave)"):
+            make_problem(made, Path())

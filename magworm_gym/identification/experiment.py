@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from magworm_gym._magworm import Scene, SceneError
+from magworm_gym._magworm import Scene
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.recording import Recording, record_scenes
 
@@ -82,5 +82,5 @@ def edited_scene(scene: Scene, values: Mapping[str, Any], where: str) -> Scene:
     """
     try:
         return scene.with_values(dict(values))
-    except (SceneError, TypeError) as error:
+    except (ValueError, TypeError) as error:  # a SceneError, or a value of no type that a scene has
         raise ProblemError(f"{where}: {error}") from error
