@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import msgspec
 import numpy as np
@@ -41,6 +42,18 @@ class Row:
     cost: Cost | None = None
 
 
+class Spread(NamedTuple):
+    mean: float
+    low: float
+
+
+@dataclass(frozen=True)
+class Told:
+    place: Literal["plane", "space"]
+    spread: Spread
+    rolls: tuple[float, ...]
+
+
 @dataclass(frozen=True)
 class Found:
     places: NDArray[np.float64]
@@ -66,6 +79,13 @@ def test_what_is_no_number_is_an_empty_cell(tmp_path):
     write_rows(tmp_path / "rows.csv", Cost, [Cost(math.nan), Cost(math.inf)])
     first, second = read_rows(tmp_path / "rows.csv", Cost)
     assert math.isnan(first.wall_s) and second.wall_s == math.inf
+
+
+def test_a_tuple_is_one_cell_and_so_is_a_word_of_a_closed_set(tmp_path):
+    rows = [Told("space", Spread(1.5, -2.0), (3.0,)), Told("plane", Spread(0.5, 0.25), ())]
+    write_rows(tmp_path / "rows.csv", Told, rows)
+    assert (tmp_path / "rows.csv").read_text().splitlines()[1] == "space,1.5 -2,3"
+    assert read_rows(tmp_path / "rows.csv", Told) == rows
 
 
 def test_a_cell_of_the_wrong_type_is_refused(tmp_path):

@@ -109,11 +109,11 @@ def _nested(kind: type[Any], cells: dict[str, str]) -> dict[str, Any]:
     """The cells of a row as msgspec takes them."""
     values: dict[str, Any] = {}
     for name, of in get_type_hints(kind).items():
-        inner, absent = _inner(of), type(None) in get_args(of)
+        inner, absent, base = _inner(of), type(None) in get_args(of), get_origin(of) or of
         if inner:
             given = any(cells[column] for column, _ in _columns(inner))
             values[name] = _nested(inner, cells) if given or not absent else None
-        elif get_origin(of) is tuple:
+        elif isinstance(base, type) and issubclass(base, tuple):
             values[name] = cells[name].split()
         elif cells[name] == "" and of is not str:
             values[name] = None if absent else "nan"
