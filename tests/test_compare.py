@@ -364,6 +364,7 @@ def test_each_environment_has_budgets(task: str, name: str) -> None:
         ("crawl", "[ID.search]\npopulation = 1", "search.population is 1"),
         ("crawl", "[ID]\nsearch = 3", "search is 3; allowed: a table"),
         ("crawl", "[ID.training]\nsteps = 0", "steps is 0"),
+        ("crawl", "[ID.training]\nenvironment_id = 'x'", "training.environment_id is 'x'"),
         ("crawl", "[ID.training]\nwings = 2", "unknown setting 'wings'"),
         ("crawl", "[ID.training.learner]\ngamma = 2.0", "gamma is 2.0"),
         ("turn", "[ID.final]\nwings = 2", "unknown setting 'wings'"),

@@ -61,6 +61,7 @@ def main(arguments: list[str], configs: Path | None = None) -> None:
         began = time.monotonic()
         report = evaluate(budget, settings, folder, out, flags.workers)
         if flags.keep:
+            Path(flags.keep).parent.mkdir(parents=True, exist_ok=True)
             report.write(Path(flags.keep))
         print(f"report: {out / 'report.md'}, {time.monotonic() - began:.0f} s\n\n{_summary(report)}")
     except KeyboardInterrupt:
@@ -123,7 +124,13 @@ def settings_of(
     """
     file = configs / f"{budget.training.get('algorithm', 'ppo')}.toml" if configs else None
     changes = {"environment": {"scene": scene}} if scene else {}
-    return read_settings(file, environment_id, merged(budget.training, changes))
+    own = file if file is not None and file.exists() else None
+    settings = read_settings(own, environment_id, merged(budget.training, changes))
+    if settings.environment_id != environment_id:
+        raise UsageError(
+            f"training.environment_id is {settings.environment_id!r}; allowed: {environment_id!r}"
+        )
+    return settings
 
 
 def _kept(folder: Path, wanted: TrainingSettings, *, given: bool) -> TrainingSettings:
