@@ -140,11 +140,11 @@ def read_experiment(
     aims += [
         _target(each, name, scene.magnets, f"{where}.targets[{at}]") for at, each in enumerate(table.targets)
     ]
-    left_out = [path for path in paths if path not in scene_numbers(scene)]
-    known = {
-        path for path in left_out if any(path.startswith(f"{table}.") for table in values)
-    } | values.keys()
-    return Found(Experiment(name, scene, duration_s, known=frozenset(known)), aims, remarks)
+    within = tuple(f"{path}." for path in values)
+    left_out = {path for path in paths if path.startswith(within) and path not in scene_numbers(scene)}
+    return Found(
+        Experiment(name, scene, duration_s, known=frozenset(left_out | values.keys())), aims, remarks
+    )
 
 
 def _tracks(table: FilmTable, magnets: int, where: str, folder: Path) -> Tracks:

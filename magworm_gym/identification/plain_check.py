@@ -52,14 +52,7 @@ MOST_LENGTHS = 10.0
 
 
 def check_at_rest(film: Film, scene: Scene) -> list[str]:
-    """Compares where marks are in the first frames with where the scene has its magnets.
-
-    Args:
-        film: The film.
-        scene: The scene of its experiment.
-
-    Returns:
-        What is to be said of it.
+    """What there is to say where marks are in the first frames, and where the scene has its magnets.
 
     Raises:
         ProblemError: A scale or an order that cannot be meant.
@@ -70,7 +63,7 @@ def check_at_rest(film: Film, scene: Scene) -> list[str]:
     start_m = start_places(scene)[magnets]
     reach_m = start_m[-1] - start_m[0]
     length_m, seen_length_m = np.linalg.norm(reach_m), np.linalg.norm(seen_m[-1] - seen_m[0])
-    told = f"{film.name.split(':')[0]}: the marks at rest"
+    told = f"{film.experiment}: the marks at rest"
     apart = f"{told} reach over {seen_length_m:.3g} m and the magnets of the scene over {length_m:.3g} m"
     ratio = seen_length_m / length_m
     if not 1.0 / WRONG_SCALE <= ratio <= WRONG_SCALE:
@@ -88,8 +81,8 @@ def check_at_rest(film: Film, scene: Scene) -> list[str]:
     remarks = []
     if not 1.0 / DOUBTFUL_SCALE <= ratio <= DOUBTFUL_SCALE:
         remarks.append(f"{apart}: is metres_per_pixel right?")
-    turn_deg = _angle_deg(seen_m[-1] - seen_m[0]) - _angle_deg(reach_m)
-    turn_deg = (turn_deg + 180.0) % 360.0 - 180.0
+    turned = complex(*(seen_m[-1] - seen_m[0])) / complex(*reach_m)
+    turn_deg = np.degrees(np.angle(turned))
     if abs(turn_deg) > TILTED_DEG:
         remarks.append(
             f"{told} are turned by {turn_deg:.0f}° from the magnets of the scene: is angle_deg right?"
@@ -128,18 +121,8 @@ def _at_rest(film: Film) -> tuple[list[int], Floats]:
     return magnets, np.array(places)
 
 
-def _angle_deg(way: Floats) -> float:
-    return float(np.degrees(np.arctan2(way[1], way[0])))
-
-
 def doubts(experiments: Sequence[Experiment], aims: Sequence[Aim], sample_s: float) -> Iterator[str]:
-    """What there is to say where films and drives are compared with the scene as it is.
-
-    Args:
-        experiments: The experiments.
-        aims: What is compared with them.
-        sample_s: Time between two instants of a recording [s].
-    """
+    """What there is to say where films and drives are compared with the scene as it is, once run."""
     films = {aim.experiment: aim for aim in aims if isinstance(aim, Film)}
     for experiment in experiments:
         length_m = experiment.scene.body_length_m
