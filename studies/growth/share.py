@@ -7,17 +7,17 @@ is taken apart. The ceiling is an environment with the same spaces that does not
 
 import time
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
-import msgspec
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from stable_baselines3 import PPO
-from stable_baselines3.common.utils import set_random_seed
-from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 from magworm_gym import Batch, Scene
+from magworm_gym.learning.place import Place
+from magworm_gym.learning.settings import read_settings
+from magworm_gym.learning.training import new_learner
 from magworm_gym.sb3 import MagWormSB3VecEnv
 from magworm_gym.tasks import TaskName
 from studies.kit.study import ROOT
@@ -58,6 +58,17 @@ class Idle(Timed):
         return observations, np.zeros(count, np.float32), np.zeros(count, np.bool_), nothing
 
 
+@dataclass(frozen=True)
+class TimedPlace(Place):
+    """A place of environments that are timed."""
+
+    kind: type[Timed] = Timed
+
+    def for_stable_baselines(self) -> Timed:
+        """See the base class."""
+        return self._made(self.kind, {})
+
+
 class Replayed:
     """A batch whose steps take no time: each gives the answer of the first."""
 
@@ -80,6 +91,11 @@ class Case:
     task: TaskName
     step_ms: float
     precision: str = "double"
+
+    @property
+    def environment_id(self) -> str:
+        """In Gymnasium's registry."""
+        return {"crawl": "MagWorm/Crawl-v0", "turn": "MagWorm/Turn-v1"}[self.task]
 
     @property
     def scene(self) -> Scene:
@@ -128,23 +144,15 @@ def share(case: Case) -> Share:
 
 def trained(kind: type[Timed], case: Case) -> tuple[int, float, float]:
     """Environment steps, wall time and the part of it within steps [s], after a rollout to warm up."""
-    settings: dict[str, Any] = msgspec.toml.decode(SETTINGS.read_bytes())["default"]
-    torch.set_num_threads(1)  # the network is small: a second thread waits more than it computes
-    set_random_seed(0)
-    episode_steps = settings["environment"]["max_episode_steps"]
-    environments = kind(ENVIRONMENTS, case.scene, episode_steps, task=case.task)
-    environments.seed(0)
-    algorithm = settings["learner"]
-    normalised: VecEnv = VecNormalize(environments, gamma=algorithm["gamma"])
-    network = {"net_arch": algorithm.pop("hidden"), "log_std_init": algorithm.pop("log_std_init")}
-    for name in ("activation", "normalise", "learning_rate"):
-        del algorithm[name]
-    model = PPO("MlpPolicy", normalised, policy_kwargs=network, device="cpu", **algorithm)
-    rollout = ENVIRONMENTS * algorithm["n_steps"]
-    model.learn(rollout)
-    environments.seconds, start = 0.0, time.perf_counter()
-    model.learn(ROLLOUTS * rollout, reset_num_timesteps=False)
-    return ROLLOUTS * rollout, time.perf_counter() - start, environments.seconds
+    settings = read_settings(SETTINGS, "MagWorm/Crawl-v0", {})
+    arguments = {**settings.environment, "scene": case.scene}
+    place = TimedPlace(case.environment_id, ENVIRONMENTS, 0, arguments, kind=kind)
+    with TemporaryDirectory() as folder:
+        learner: Any = new_learner(settings, place, Path(folder))
+        learner.advance()
+        learner.robots.seconds, start = 0.0, time.perf_counter()
+        steps = sum(learner.advance().steps for _ in range(ROLLOUTS))
+        return steps, time.perf_counter() - start, learner.robots.seconds
 
 
 def around_s(case: Case) -> float:
