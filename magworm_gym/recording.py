@@ -35,15 +35,26 @@ class Recording:
 
     @property
     def centre(self) -> Floats:
-        """Places of the robot's centre, the mean of its magnets' places (T, 2), in space (T, 3) [m]."""
+        """Places of the centre (T, 2), in space (T, 3) [m]: the mean of its magnets, else of its nodes."""
         axes = 2 if self.magnet_poses.shape[-1] == 3 else 3
-        return np.asarray(self.magnet_poses[..., :axes].mean(axis=1))
+        places = self.magnet_poses if self.magnet_poses.shape[1] else self.nodes
+        return np.asarray(places[..., :axes].mean(axis=1))
 
     @property
     def progress_m(self) -> Floats:
         """Way along -x, towards the head of a robot that does not turn, since the first instant (T,) [m]."""
         centre_x = self.centre[:, 0]
         return np.asarray(centre_x[0] - centre_x)
+
+    def at(self, instant: int) -> tuple[Floats, Floats, NDArray[np.bool_], Floats, Floats]:
+        """What a view draws: nodes, magnets, which are in place, drives; places of the centre up to then."""
+        return (
+            self.nodes[instant],
+            self.magnet_poses[instant],
+            self.present,
+            self.drive_positions[instant],
+            self.centre[: instant + 1],
+        )
 
 
 def record_scenes(

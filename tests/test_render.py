@@ -13,7 +13,7 @@ from magworm_gym.baselines import Recording
 from magworm_gym.render import SideView
 from magworm_gym.render.animation import stacked, write_gif, write_mp4
 from magworm_gym.render.camera import Camera
-from magworm_gym.render.outline import band, rectangle, refinement_matrix
+from magworm_gym.render.outline import band, rectangle, refinement_matrix, turned
 from magworm_gym.render.palette import NORTH, RUBBER, RUBBER_LIGHT, SOUTH
 from magworm_gym.render.race import race_frames
 
@@ -148,7 +148,8 @@ def test_refined_line_passes_through_its_nodes() -> None:
 def test_outlines_have_their_sizes() -> None:
     outline = band(nodes(), np.full(28, 0.007))
     assert np.ptp(outline[:, 1]) == pytest.approx(0.007)
-    corners = rectangle(1.0, 2.0, np.pi / 2, 0.4, -0.1, 0.2)
+    corners = rectangle((1.0, 2.0), turned(np.pi / 2), (0.4, 0.3))
+    assert corners.mean(axis=0) == pytest.approx((1.0, 2.0))
     assert np.ptp(corners[:, 0]) == pytest.approx(0.3)
     assert np.ptp(corners[:, 1]) == pytest.approx(0.4)
 

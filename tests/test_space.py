@@ -158,7 +158,8 @@ def test_a_recording_becomes_a_film(scene: Scene, tmp_path: Path) -> None:
     from magworm_gym.render.animation import write_gif
     from magworm_gym.render.film import film_frames
 
-    for each in (scene, Scene.preset("paper-3")):
+    # A cantilever has no magnets.
+    for each in (scene, Scene.preset("paper-3"), Scene.preset("cantilever")):
         record = record_scenes([each], 0.06)[0]
         frames = list(film_frames(record, each, 320, 180, every=3))
         assert [frame.shape for frame in frames] == [(180, 320, 3)] * 3

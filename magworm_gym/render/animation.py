@@ -1,21 +1,30 @@
 """Animations: frames into mp4 and gif files, several robots stacked on one time axis."""
 
 import itertools
-import os
 from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from magworm_gym.arguments import path_of
+from magworm_gym.atomic_files import replace_file
 
 Frame = NDArray[np.uint8]
 
 SEPARATOR_PX = 2
 SEPARATOR_GREY = 120
 GIF_COLOURS = 64
+
+
+def joined(panels: Sequence[Frame], axis: Literal[0, 1]) -> Frame:
+    """Puts frames (H_i, W_i, 3) under (axis 0) or beside (1) each other, with a line between them."""
+    shape = list(panels[0].shape)
+    shape[axis] = SEPARATOR_PX
+    line = np.full(shape, SEPARATOR_GREY, dtype=np.uint8)
+    return np.concatenate([part for panel in panels for part in (panel, line)][:-1], axis)
 
 
 def stacked(panels: Sequence[Frame]) -> Frame:
@@ -27,9 +36,7 @@ def stacked(panels: Sequence[Frame]) -> Frame:
     Returns:
         One frame; its sides are even, as video codecs ask.
     """
-    line = np.full((SEPARATOR_PX, panels[0].shape[1], 3), SEPARATOR_GREY, dtype=np.uint8)
-    parts = [part for panel in panels for part in (panel, line)][:-1]
-    whole = np.concatenate(parts)
+    whole = joined(panels, 0)
     height, width = whole.shape[0] // 2 * 2, whole.shape[1] // 2 * 2
     return np.ascontiguousarray(whole[:height, :width])
 
@@ -48,23 +55,20 @@ def write_mp4(path: str | PathLike[str], frames: Iterable[Frame], fps: float) ->
         ImportError: imageio-ffmpeg is missing; the sentence names the extra to install.
         ValueError: There is no frame.
     """
-    path = path_of("path", path)
     try:
         import imageio_ffmpeg
     except ImportError as error:
         raise ImportError("mp4 needs imageio-ffmpeg: pip install 'magworm-gym[render]'.") from error
     first, frames = _begun(frames)
-    part = path.with_name(f".part-{path.name}")
-    writer = imageio_ffmpeg.write_frames(
-        str(part), (first.shape[1], first.shape[0]), fps=fps, quality=7, macro_block_size=2
-    )
-    writer.send(None)
-    try:
-        for frame in frames:
-            writer.send(np.ascontiguousarray(frame))
-    finally:
-        writer.close()
-    os.replace(part, path)
+    size = (first.shape[1], first.shape[0])
+    with replace_file(path_of("path", path)) as part:
+        writer = imageio_ffmpeg.write_frames(str(part), size, fps=fps, quality=7, macro_block_size=2)
+        writer.send(None)
+        try:
+            for frame in frames:
+                writer.send(np.ascontiguousarray(frame))
+        finally:
+            writer.close()
 
 
 def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, scale: float = 1.0) -> None:
@@ -79,7 +83,6 @@ def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, sc
     Raises:
         ValueError: There is no frame.
     """
-    path = path_of("path", path)
     first, frames = _begun(frames)
     size = (round(first.shape[1] * scale), round(first.shape[0] * scale))
     palette = Image.fromarray(first).quantize(GIF_COLOURS)
@@ -89,17 +92,16 @@ def write_gif(path: str | PathLike[str], frames: Iterable[Frame], fps: float, sc
         .quantize(palette=palette, dither=Image.Dither.NONE)
         for frame in frames
     ]
-    part = path.with_name(f".part-{path.name}")
-    images[0].save(
-        part,
-        format="GIF",
-        save_all=True,
-        append_images=images[1:],
-        duration=round(1000.0 / fps),
-        loop=0,
-        optimize=False,
-    )
-    os.replace(part, path)
+    with replace_file(path_of("path", path)) as part:
+        images[0].save(
+            part,
+            format="GIF",
+            save_all=True,
+            append_images=images[1:],
+            duration=round(1000.0 / fps),
+            loop=0,
+            optimize=False,
+        )
 
 
 def _begun(frames: Iterable[Frame]) -> tuple[Frame, Iterator[Frame]]:

@@ -7,15 +7,7 @@ from PIL import Image
 
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas
-from magworm_gym.render.palette import (
-    BELOW_PLATE,
-    GROUND_LINE,
-    PLATE,
-    SKY_HORIZON,
-    SKY_TOP,
-    TICK,
-    mix,
-)
+from magworm_gym.render.palette import BELOW_PLATE, GROUND_LINE, PLATE, SKY_HORIZON, SKY_TOP, TICK, mix
 
 PLATE_M = 0.004
 LABELLED_CM = (1, 2, 5, 10, 20, 50)
@@ -47,13 +39,12 @@ def background(camera: Camera, height: int, *, ground: bool) -> Image.Image:
     return Image.fromarray(np.round(pixels).astype(np.uint8))
 
 
-def draw_ticks(canvas: Canvas, camera: Camera, text_px: float) -> None:
+def draw_ticks(canvas: Canvas, camera: Camera) -> None:
     """Marks every centimetre of the ground, and labels some, in world coordinates.
 
     Args:
         canvas: Frame to draw on.
         camera: Tells which part of the ground is visible.
-        text_px: Height of the labels [pixels].
     """
     per_cm = 0.01 * camera.pixels_per_m
     labelled = next((cm for cm in LABELLED_CM if cm * per_cm >= LABEL_SPACING_PX), LABELLED_CM[-1])
@@ -62,12 +53,16 @@ def draw_ticks(canvas: Canvas, camera: Camera, text_px: float) -> None:
     first = math.ceil(100.0 * low_m / ticked) * ticked
     top = camera.ground_px
     for centimetre in range(first, math.floor(100.0 * high_m) + 1, ticked):
-        column = float(camera.columns(np.array(0.01 * centimetre)))
+        column = camera.column(0.01 * centimetre)
         tall = centimetre % labelled == 0
         _tick(canvas, column, top, 9.0 if tall else 5.0)
         if tall:
-            label = f"{centimetre} cm" if centimetre else "0"
-            canvas.text((column, top + 11.0), label, text_px, TICK, "mt")
+            canvas.text((column, top + 11.0), label(centimetre), canvas.text_px, TICK, "mt")
+
+
+def label(centimetre: int) -> str:
+    """What is written at a tick."""
+    return f"{centimetre} cm" if centimetre else "0"
 
 
 def _tick(canvas: Canvas, column: float, top: float, length: float) -> None:

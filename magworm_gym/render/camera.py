@@ -25,20 +25,11 @@ class Camera:
     ) -> None:
         self.pixels_per_m = width / span_m
         self.width = width
-        self.height = height
+        self.ground_px = horizon * height
+        """Row of y = 0."""
+        self.centre_m = math.nan if centre_m is None else centre_m
+        """World x in the middle of the frame."""
         self._fixed = centre_m is not None
-        self._centre_m = math.nan if centre_m is None else centre_m
-        self._horizon_px = horizon * height
-
-    @property
-    def centre_m(self) -> float:
-        """World x [m] in the middle of the frame."""
-        return self._centre_m
-
-    @property
-    def ground_px(self) -> float:
-        """Row of y = 0 [pixels]."""
-        return self._horizon_px
 
     def follow(self, x_m: float) -> None:
         """Moves a part of the way towards the robot.
@@ -50,23 +41,20 @@ class Camera:
         """
         if self._fixed or not math.isfinite(x_m):
             return
-        distance = x_m - self._centre_m
+        distance = x_m - self.centre_m
         seen = abs(distance) * self.pixels_per_m < 0.5 * self.width
-        self._centre_m = self._centre_m + FOLLOWED_SHARE * distance if seen else x_m
+        self.centre_m = self.centre_m + FOLLOWED_SHARE * distance if seen else x_m
 
-    def columns(self, x_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Columns [pixels] of world x [m], same shape."""
-        return (x_m - self._centre_m) * self.pixels_per_m + 0.5 * self.width
+    def column(self, x_m: float) -> float:
+        """Column [pixels] of world x [m]."""
+        return (x_m - self.centre_m) * self.pixels_per_m + 0.5 * self.width
 
     def pixels(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pixels (…, 2), column and row from the top left, of world points (…, 2) [m]."""
-        pixels = np.array(points_m, dtype=np.float64)
-        pixels -= (self._centre_m, 0.0)
-        pixels *= (self.pixels_per_m, -self.pixels_per_m)
-        pixels += (0.5 * self.width, self._horizon_px)
-        return pixels
+        scale, middle = (self.pixels_per_m, -self.pixels_per_m), (0.5 * self.width, self.ground_px)
+        return np.asarray((points_m - np.array([self.centre_m, 0.0])) * scale + middle)
 
     def visible_x_m(self) -> tuple[float, float]:
         """World x [m] of the left and the right edge."""
         half = 0.5 * self.width / self.pixels_per_m
-        return self._centre_m - half, self._centre_m + half
+        return self.centre_m - half, self.centre_m + half

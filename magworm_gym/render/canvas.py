@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from magworm_gym.render.palette import Colour
+from magworm_gym.render.palette import TEXT, Colour
 
 SUPERSAMPLING = 3
 MARGIN_PX = 3.0
@@ -90,6 +90,14 @@ class Canvas:
     def __init__(self, background: Image.Image) -> None:
         self._image = background.copy()
         self._draw = ImageDraw.Draw(self._image)
+        self.text_px = min(max(0.04 * background.height, 13.0), 20.0)
+        """Size of letters of ordinary text."""
+
+    def caption(self, text: str, colour: Colour = TEXT, *, right: bool = False) -> None:
+        """Writes lines of ordinary text into the upper left corner, or into the right one."""
+        margin, top = 0.8 * self.text_px, 0.7 * self.text_px
+        left = self._image.width - margin if right else margin
+        self.text((left, top), text, self.text_px, colour, "ra" if right else "la")
 
     def text(
         self, place: tuple[float, float], text: str, size_px: float, colour: Colour, anchor: Anchor = "la"

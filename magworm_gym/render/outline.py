@@ -1,10 +1,10 @@
-"""Outlines in the plane: the rubber band around a centre line, and magnets."""
+"""Outlines in the plane: the rubber band around a centre line, and magnets, with how they are turned."""
 
 import functools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 REFINEMENT = 4
 
@@ -77,31 +77,33 @@ def half(outline: NDArray[np.float64], direction: NDArray[np.float64]) -> NDArra
     return np.array(corners).reshape(-1, 2)
 
 
-def rectangle(
-    x: float, y: float, angle: float, length: float, bottom: float, top: float
-) -> NDArray[np.float64]:
-    """Corners of a rotated rectangle.
+def rectangle(centre: ArrayLike, axes: NDArray[np.float64], size: ArrayLike) -> NDArray[np.float64]:
+    """Corners of a rectangle, or of the shadow of one in space.
 
     Args:
-        x: Centre along x.
-        y: Centre along y.
-        angle: Anticlockwise rotation [rad].
-        length: Extent along the rotated x, centred.
-        bottom: Lower side along the rotated y.
-        top: Upper side along the rotated y.
+        centre: Its middle (2,).
+        axes: Directions of its length and its height (2, 2), a row each; shorter than 1 in a shadow.
+        size: Length and height (2,).
 
     Returns:
         Corners (4, 2), in the unit of the lengths.
     """
-    cosine, sine = math.cos(angle), math.sin(angle)
-    along = (-0.5 * length, 0.5 * length, 0.5 * length, -0.5 * length)
-    across = (bottom, bottom, top, top)
-    return np.array(
-        [(x + cosine * a - sine * b, y + sine * a + cosine * b) for a, b in zip(along, across, strict=True)]
-    )
+    corners = 0.5 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.asarray(size)
+    return np.asarray(centre + corners @ axes)
 
 
 def turned(angle: float) -> NDArray[np.float64]:
     """Along a body that is turned by an angle [rad], and up from it: rows x, y."""
     cosine, sine = math.cos(angle), math.sin(angle)
     return np.array([[cosine, sine], [-sine, cosine]])
+
+
+def rotations(quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Axes of bodies in space (M, 3, 3) from w, x, y, z (M, 4): in columns along each, up and to its side."""
+    w, x, y, z = quaternions.T
+    matrices = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(matrices), -1, 0)

@@ -43,9 +43,7 @@ def mix(first: Colour, second: Colour, share: float) -> Colour:
     Returns:
         The blended colour.
     """
-    rest = 1.0 - share
-    return (
-        int(first[0] * rest + second[0] * share + 0.5),
-        int(first[1] * rest + second[1] * share + 0.5),
-        int(first[2] * rest + second[2] * share + 0.5),
+    red, green, blue = (
+        int(one * (1.0 - share) + other * share + 0.5) for one, other in zip(first, second, strict=True)
     )
+    return red, green, blue

@@ -1,6 +1,7 @@
 """Several recorded robots under each other, on one time axis and one ground."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -59,11 +60,10 @@ def _framing(recordings: list[Recording], aspect: float) -> dict[str, float]:
 
 def _from_zero(recording: Recording) -> Recording:
     shift = recording.centre[0, 0]
-    return Recording(
-        time_s=recording.time_s,
+    return replace(
+        recording,
         nodes=recording.nodes - (shift, 0.0),
         magnet_poses=recording.magnet_poses - (shift, 0.0, 0.0),
-        present=recording.present,
         drive_positions=recording.drive_positions - (shift, 0.0),
     )
 
@@ -71,11 +71,4 @@ def _from_zero(recording: Recording) -> Recording:
 def _panel(view: SideView, title: str, recording: Recording, instant: int) -> NDArray[np.uint8]:
     time = recording.time_s[instant] - recording.time_s[0]
     way_mm = 1000.0 * recording.progress_m[instant]
-    return view.draw(
-        recording.nodes[instant],
-        recording.magnet_poses[instant],
-        recording.present,
-        recording.drive_positions[instant],
-        recording.centre[: instant + 1],
-        f"{title}\n{time:5.2f} s   {way_mm:6.1f} mm",
-    )
+    return view.draw(*recording.at(instant), f"{title}\n{time:5.2f} s   {way_mm:6.1f} mm")

@@ -1,7 +1,5 @@
 """The side view of one environment: robot, drive magnets, ground and trail."""
 
-import itertools
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,30 +9,14 @@ from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
 from magworm_gym.render.outline import band, half, rectangle, turned
-from magworm_gym.render.palette import (
-    EYE,
-    LETTER,
-    MAGNET_EDGE,
-    NORTH,
-    REMOVED_EDGE,
-    RUBBER,
-    RUBBER_EDGE,
-    RUBBER_LIGHT,
-    SOUTH,
-    TEXT,
-    TICK,
-    TRAIL_NEW,
-    TRAIL_OLD,
-    mix,
-)
+from magworm_gym.render.palette import LETTER, MAGNET_EDGE, NORTH, REMOVED_EDGE, SOUTH, TICK
+from magworm_gym.render.robot import TRAIL_POINTS, body_length, draw_eyes, draw_rubber, draw_trail
 from magworm_gym.render.window import Windowed
 
 Floats = NDArray[np.float64]
 
 SPAN_BODY_LENGTHS = 3.4
 HORIZON = 0.32
-TRAIL_PIECES = 12
-TRAIL_POINTS = 480
 SMALLEST_LETTER_PX = 8.0
 UPWARD = np.array([0.0, 1.0])
 
@@ -72,19 +54,16 @@ class SideView(Windowed):
         centre_m: float | None = None,
         horizon: float = HORIZON,
     ) -> None:
-        self.width = width
-        self.height = height
-        sections = geometry.get("element_thickness_m", geometry["node_thickness_m"])
-        self._thickness = np.asarray(sections, dtype=np.float64)
-        self._magnet_size = np.asarray(geometry["magnet_size_m"], dtype=np.float64)[:, :2]
-        self._magnet_direction = np.asarray(geometry["magnet_direction"], dtype=np.float64)[:, :2]
-        self._magnet_offset = np.asarray(geometry["magnet_offset_m"], dtype=np.float64)[:, :2]
-        self._drive_size = tuple(geometry["drive_size_m"])
+        self.width, self.height = width, height
+        self._thickness = np.asarray(geometry.get("element_thickness_m", geometry["node_thickness_m"]))
+        self._size, self._direction, self._offset = (
+            np.reshape(geometry[name], (-1, 3))[:, :2]
+            for name in ("magnet_size_m", "magnet_direction", "magnet_offset_m")
+        )
+        self._drive_length, self._drive_height = geometry["drive_size_m"]
         self._ground = bool(geometry["ground"])
         self._incline_deg = float(geometry["incline_deg"])
-        self._span_m = span_m
-        self._centre_m = centre_m
-        self._horizon = horizon
+        self._span_m, self._centre_m, self._horizon = span_m, centre_m, horizon
         self._camera: Camera | None = None
 
     def draw(
@@ -115,23 +94,21 @@ class SideView(Windowed):
         camera = self._following(nodes)
         canvas = Canvas(self._background)
         if self._ground:
-            backdrop.draw_ticks(canvas, camera, self._text_px)
+            backdrop.draw_ticks(canvas, camera)
         drives = np.asarray(drive_positions, dtype=np.float64)
-        lengths = np.full(len(drives), self._drive_size[0]) if drive_lengths is None else drive_lengths
+        lengths = np.full(len(drives), self._drive_length) if drive_lengths is None else drive_lengths
         self._draw_drives(canvas, camera, drives, lengths)
         if np.all(np.isfinite(nodes)):
             self._draw_robot(canvas, camera, nodes, magnet_poses, present, trail)
-        self._draw_text(canvas, text)
+        if text:
+            canvas.caption(text)
+        if self._incline_deg:
+            canvas.caption(f"incline {self._incline_deg:g}°", TICK, right=True)
         return canvas.frame()
-
-    @property
-    def _text_px(self) -> float:
-        return float(np.clip(0.04 * self.height, 13.0, 20.0))
 
     def _following(self, nodes: Floats) -> Camera:
         if self._camera is None:
-            length = float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum())
-            span = self._span_m or SPAN_BODY_LENGTHS * length
+            span = self._span_m or SPAN_BODY_LENGTHS * body_length(nodes)
             self._camera = Camera(
                 self.width, self.height, span, horizon=self._horizon, centre_m=self._centre_m
             )
@@ -140,11 +117,11 @@ class SideView(Windowed):
         return self._camera
 
     def _draw_drives(self, canvas: Canvas, camera: Camera, positions: Floats, lengths: Floats) -> None:
-        height = self._drive_size[1]
-        for (x, y), length in zip(positions.tolist(), lengths.tolist(), strict=True):
-            corners = camera.pixels(rectangle(x, y, 0.0, length, -0.5 * height, 0.5 * height))
+        height = self._drive_height
+        for centre, length in zip(positions, lengths, strict=True):
+            corners = camera.pixels(rectangle(centre, turned(0.0), (length, height)))
             with canvas.region([corners]) as region:
-                _draw_magnet(region, camera, (x, y, 0.0), (length, height), UPWARD)
+                _draw_magnet(region, corners, UPWARD)
             pole_px = 0.5 * height * camera.pixels_per_m
             if pole_px >= SMALLEST_LETTER_PX:
                 column, row = corners.mean(axis=0).tolist()
@@ -160,65 +137,30 @@ class SideView(Windowed):
         present: NDArray[np.bool_],
         trail: Floats,
     ) -> None:
-        body = band(camera.pixels(nodes), self._thickness * camera.pixels_per_m)
-        line = camera.pixels(np.reshape(trail, (-1, 2))[-TRAIL_POINTS:])
-        with canvas.region([body, line]) as region:
-            draw_trail(region, line)
-            self._draw_rubber(region, camera, nodes, body)
-            magnets = zip(poses, self._magnet_offset, self._magnet_size, self._magnet_direction, strict=True)
-            for (pose, offset, size, direction), there in zip(magnets, present, strict=True):
-                place = (*(pose[:2] + offset @ turned(pose[2])), pose[2])
-                _draw_magnet(region, camera, place, size, direction if there else None)
-
-    def _draw_rubber(self, region: Region, camera: Camera, nodes: Floats, body: Floats) -> None:
-        centre_line = camera.pixels(nodes)
-        thickness = self._thickness * camera.pixels_per_m
-        region.polygon(body, RUBBER)
-        region.polygon(band(centre_line, thickness, share=0.45), RUBBER_LIGHT)
-        region.polygon(body, None, RUBBER_EDGE, edge_px=1.3)
-        _draw_eye(region, centre_line, thickness[0])
-
-    def _draw_text(self, canvas: Canvas, text: str | None) -> None:
-        size = self._text_px
-        if text:
-            canvas.text((0.8 * size, 0.7 * size), text, size, TEXT, "la")
-        if self._incline_deg:
-            corner = (self.width - 0.8 * size, 0.7 * size)
-            canvas.text(corner, f"incline {self._incline_deg:g}°", size, TICK, "ra")
+        line, thickness = camera.pixels(nodes), self._thickness * camera.pixels_per_m
+        path = camera.pixels(np.reshape(trail, (-1, 2))[-TRAIL_POINTS:])
+        with canvas.region([band(line, thickness), path]) as region:
+            draw_trail(region, path)
+            draw_rubber(region, line, thickness, light=0.45)
+            draw_eyes(region, line, thickness[0], [(0.17, 0.2)], radius=0.065)
+            magnets = zip(poses, present, self._offset, self._size, self._direction, strict=True)
+            for pose, there, offset, size, direction in magnets:
+                axes = turned(pose[2])
+                corners = camera.pixels(rectangle(pose[:2] + offset @ axes, axes, size))
+                _draw_magnet(region, corners, direction @ axes if there else None)
 
 
-def _draw_eye(region: Region, centre_line: Floats, thickness: float) -> None:
-    """Marks the head, so that a picture alone tells which way the robot crawls."""
-    edge = centre_line[1] - centre_line[0]
-    inward = edge / max(float(np.linalg.norm(edge)), 1e-9)
-    upward = np.array([inward[1], -inward[0]])
-    region.disc(centre_line[0] + thickness * (0.17 * inward + 0.2 * upward), max(1.2, 0.065 * thickness), EYE)
+def _draw_magnet(region: Region, corners: Floats, north: Floats | None) -> None:
+    """Draws a magnet, cut into its two poles; None, for one that was removed, leaves an empty outline.
 
-
-def draw_trail(region: Region, line: Floats) -> None:
-    """Draws the trail in pieces that fade towards the past."""
-    if len(line) < 2:
+    Args:
+        region: Where to draw.
+        corners: Of the magnet (4, 2) [pixels].
+        north: From south to north in the world (2,), y up.
+    """
+    if north is None:
+        region.polygon(corners, None, REMOVED_EDGE)
         return
-    cuts = np.unique(np.linspace(0, len(line) - 1, TRAIL_PIECES + 1).astype(int))
-    for start, stop in itertools.pairwise(cuts.tolist()):
-        share = stop / (len(line) - 1)
-        region.line(line[start : stop + 1], mix(TRAIL_OLD, TRAIL_NEW, share), 1.0 + share)
-
-
-def _draw_magnet(
-    region: Region,
-    camera: Camera,
-    pose: tuple[float, float, float],
-    size_m: Sequence[float] | Floats,
-    direction: Floats | None,
-) -> None:
-    """Draws a magnet, cut across its direction into its two poles; None leaves an empty outline."""
-    length, height = size_m
-    whole = rectangle(*pose, length, -0.5 * height, 0.5 * height)
-    if direction is None:
-        region.polygon(camera.pixels(whole), None, REMOVED_EDGE, edge_px=1.0)
-        return
-    north = direction @ turned(pose[2])
-    region.polygon(camera.pixels(whole), SOUTH)
-    region.polygon(camera.pixels(half(whole, north)), NORTH)
-    region.polygon(camera.pixels(whole), None, MAGNET_EDGE, edge_px=1.0)
+    region.polygon(corners, SOUTH)
+    region.polygon(half(corners, north * (1.0, -1.0)), NORTH)
+    region.polygon(corners, None, MAGNET_EDGE)

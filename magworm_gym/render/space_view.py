@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.render.animation import SEPARATOR_PX, joined
+from magworm_gym.render.outline import rotations
+from magworm_gym.render.robot import body_length
 from magworm_gym.render.side_view import SideView
 from magworm_gym.render.top_view import TopView
 from magworm_gym.render.window import Windowed
@@ -16,8 +19,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-SEPARATOR_PX = 2
-SEPARATOR_GREY = 120
 SIDE_SPAN_BODY_LENGTHS = 2.6
 
 
@@ -38,8 +39,7 @@ class SpaceView(Windowed):
     """
 
     def __init__(self, geometry: dict[str, Any], width: int = 640, height: int = 360) -> None:
-        self.width = width
-        self.height = height
+        self.width, self.height = width, height
         self._geometry = geometry
         top_width = min(height, width // 2)
         self._top = TopView(geometry, top_width, height)
@@ -73,15 +73,13 @@ class SpaceView(Windowed):
         nodes = np.asarray(nodes, dtype=np.float64)
         top = self._top.draw(nodes, magnet_poses, present, drive_positions, trail, text, goal)
         side = self._draw_side(nodes, magnet_poses, present, drive_positions)
-        line = np.full((self.height, SEPARATOR_PX, 3), SEPARATOR_GREY, dtype=np.uint8)
-        return np.concatenate([top, line, side], axis=1)
+        return joined([top, side], 1)
 
     def _draw_side(
         self, nodes: Floats, poses: Floats, present: NDArray[np.bool_], drives: Floats
     ) -> NDArray[np.uint8]:
         if self._side is None:
-            length = float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum())
-            span_m = SIDE_SPAN_BODY_LENGTHS * length
+            span_m = SIDE_SPAN_BODY_LENGTHS * body_length(nodes)
             self._side = SideView(
                 self._geometry, self._side_width, self.height, span_m=span_m, centre_m=0.0, horizon=0.4
             )
@@ -109,8 +107,7 @@ class SpaceView(Windowed):
 
 def _angles(poses: Floats, along: Floats) -> Floats:
     """Angle of each magnet in the plane of a side view (M,) [rad], turned over where its up points down."""
-    w, x, y, z = poses[:, 3:].T
-    tangent = np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * z - w * y)], axis=1) @ along
-    pitch = np.arctan2(2.0 * (x * y + w * z), tangent)
-    up = np.cos(pitch) * (1.0 - 2.0 * (x * x + z * z))
+    axes = rotations(poses[:, 3:])
+    pitch = np.arctan2(axes[:, 1, 0], axes[:, [0, 2], 0] @ along)
+    up = np.cos(pitch) * axes[:, 1, 1]
     return np.asarray(np.where(up < 0.0, pitch + np.pi, pitch))

@@ -58,8 +58,8 @@ def _draw_magnet(axes: Any, pose: Any, size_m: Any, direction: Floats | None) ->
         direction: From south to north, along the magnet and up from it; None for one that was taken out,
             which is an empty outline.
     """
-    (x, y, angle), (length, height) = pose, size_m
-    whole = MM * rectangle(x, y, angle, length, -0.5 * height, 0.5 * height)
+    x, y, angle = pose
+    whole = MM * rectangle((x, y), turned(angle), size_m)
     if direction is not None:
         for pole, north in ((palette.NORTH, direction), (palette.SOUTH, -direction)):
             part = half(whole, north @ turned(angle))
