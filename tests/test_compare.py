@@ -35,6 +35,7 @@ CRAWL = """
 num_envs = 8
 steps = 256
 seeds = [0, 1]
+environment.randomise = { removed = 0.5, parameters = 0.1 }
 [ID.sweep]
 speeds = 3
 starts = 2
@@ -292,6 +293,7 @@ def test_a_comparison_of_crawling_writes_everything_and_is_not_done_twice(
     assert len(report.data["rivals"]) == 6 * 5
     assert {one["robot"] for one in report.data["rivals"]} == {"intact", *(f"without {i}" for i in range(4))}
     text = (out / "report.md").read_text()
+    assert "50 % of the training episodes" in text and "spread by 10 %" in text
     assert text.count("Limits of the stage: speed 210 mm/s, acceleration 5 m/s²") == 2
     assert str(report.parts["verdict"]) in text and str(report.parts["verdict"]) in printed
     assert printed.rstrip().splitlines()[-1].startswith("Limits of the stage")

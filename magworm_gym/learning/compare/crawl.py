@@ -68,14 +68,11 @@ class CrawlContest(Contest):
 
     def report(self, compared: Compared) -> Report:
         """See :class:`Contest`."""
-        tables = {
-            "intact": _table(compared.whole, self.scene.body_length_m),
-            "robots": _robots_table(compared),
-        }
+        whole, robots = _table(compared.whole, self.scene.body_length_m), _robots_table(compared)
         return page(
             self,
             "crawl.md.jinja",
-            tables,
+            {"intact": whole, "robots": robots},
             verdict=" ".join(_verdict(compared)),
             damaged=len(compared.rows) > 1,
             randomise=self.training.settings.environment.get("randomise", {}),
@@ -129,11 +126,8 @@ def _verdict(compared: Compared) -> list[str]:
         ("the best open-loop stroke of CMA-ES", compared.of(STROKE)),
     ]
     sentences = verdict(learned, opponents, SPEED)
-    tow, best = (
-        compared.of("tow").interval(SPEED).value,
-        max(learned.interval(SPEED).value, belt.interval(SPEED).value),
-    )
-    if tow > TOWED_SHARE * best:
+    tow = compared.of("tow").interval(SPEED).value
+    if tow > TOWED_SHARE * max(row.interval(SPEED).value for row in (learned, belt)):
         sentences.append(
             f"Beware: a magnet held at one place ahead of the robot tows it at {MM_PER_M * tow:.2f} mm/s, so "
             "what wins here need not be a gait."
@@ -143,22 +137,14 @@ def _verdict(compared: Compared) -> list[str]:
 
 def _table(rows: Sequence[Row], body_length_m: float) -> Table:
     """One robot, a line for each drive."""
+    drive, setting, samples = (Column(name, name) for name in ("drive", "setting", "samples"))
     lengths = Column(SPEED.key, "body lengths/s [95 % interval]", ".3f", 1.0 / body_length_m)
-    speed = SPEED.column("mm/s [95 % interval]")
-    columns = [
-        Column("drive", "drive"),
-        Column("setting", "setting"),
-        speed,
-        lengths,
-        Column("samples", "samples"),
-    ]
+    columns = [drive, setting, SPEED.column("mm/s [95 % interval]"), lengths, samples]
     table = Table(columns, [], f"The {rows[0].robot} robot")
     for row in rows:
+        words = {"drive": row.title, "setting": row.rival.describe(row.found)}
         count = f"{len(row.samples[SPEED.key])} {row.sampled_over}"
-        setting = row.rival.describe(row.found)
-        table.rows.append(
-            {"drive": row.title, "setting": setting, SPEED.key: row.interval(SPEED), "samples": count}
-        )
+        table.rows.append({**words, SPEED.key: row.interval(SPEED), "samples": count})
     return table
 
 

@@ -19,8 +19,6 @@ from magworm_gym.tasks import Goal, Reach, Task, Turn
 
 Floats = NDArray[np.float64]
 
-TURN_TOLERANCE_DEG = 3.0
-REACH_TOLERANCE_M = 0.005
 CURVE_EVERY = 5
 
 TIME_TO_30 = Measure("time_to_30_deg_s", "time to 30°", "s", less=True)
@@ -92,12 +90,15 @@ class GoalContest(Contest):
     def measured(self, drive: Drive, removed: Removed) -> Plain:
         """See :class:`Contest`."""
         assert drive.controller is not None, "a task with goals is for controlled drives"
-        final = self.budget.final
-        goals = np.repeat(COURSES[type(self.task)].goals, final.starts, axis=0)
-        worms, seeds = Runner(drive.scene, len(goals), removed, self.task), FIRST_SEED + np.arange(len(goals))
+        final, task = self.budget.final, self.task
+        goals = np.repeat(COURSES[type(task)].goals, final.starts, axis=0)
+        worms, seeds = Runner(drive.scene, len(goals), removed, task), FIRST_SEED + np.arange(len(goals))
         flight = fly(worms, drive.controller(), goals, seeds, final.duration_s)
-        measured = _turn_samples(flight, goals) if isinstance(self.task, Turn) else _reach_samples(flight)
-        measured |= {"score": AIMS[type(self.task)].score(flight), LOST.key: flight.lost.astype(np.float64)}
+        measured = {"score": AIMS[type(task)].score(flight), LOST.key: flight.lost.astype(np.float64)}
+        if isinstance(task, Turn):
+            measured |= _turn_samples(flight, goals, task.tolerance_deg)
+        elif isinstance(task, Reach):
+            measured |= _reach_samples(flight, task.tolerance_m)
         samples = {
             name: [None if np.isnan(value) else value for value in values.tolist()]
             for name, values in measured.items()
@@ -127,6 +128,7 @@ class GoalContest(Contest):
             "goals.md.jinja",
             {"intact": goal_table(compared.whole, course)},
             course=course,
+            task=self.task,
             verdict=" ".join(goal_verdict(compared.whole, course)),
             teacher=self.training.settings.learner.get("teacher"),
             rewards=[one["curve"][-1][1] for one in summaries if one["curve"]] or [0.0],
@@ -160,10 +162,9 @@ def goal_verdict(rows: list[Row], course: Course) -> list[str]:
     return [*sentences, f"Best in {measure.words}: {best.title}."]
 
 
-def _turn_samples(flight: Flight, goals: Floats) -> dict[str, Floats]:
-    # Less than a tolerance left: what the task itself calls reached.
-    time_s = flight.time_until_s(TURN_TOLERANCE_DEG)
-    near = np.abs(flight.left).min(axis=0) < TURN_TOLERANCE_DEG
+def _turn_samples(flight: Flight, goals: Floats, tolerance_deg: float) -> dict[str, Floats]:
+    time_s = flight.time_until_s(tolerance_deg)
+    near = np.abs(flight.left).min(axis=0) < tolerance_deg
     samples = {"way_mm": MM_PER_M * flight.way_m, FINAL_ERROR.key: np.abs(flight.left[-1])}
     for angle in (30, 90):
         asked = np.abs(goals) == angle
@@ -172,15 +173,10 @@ def _turn_samples(flight: Flight, goals: Floats) -> dict[str, Floats]:
     return samples
 
 
-def _reach_samples(flight: Flight) -> dict[str, Floats]:
-    near = flight.left.min(axis=0) <= REACH_TOLERANCE_M
-    time_s = flight.time_until_s(REACH_TOLERANCE_M)
-    distance_mm = MM_PER_M * flight.left[-1]
-    return {
-        "success_share": near.astype(np.float64),
-        TIME_TO_GOAL.key: time_s,
-        FINAL_DISTANCE.key: distance_mm,
-    }
+def _reach_samples(flight: Flight, tolerance_m: float) -> dict[str, Floats]:
+    near = (flight.left.min(axis=0) <= tolerance_m).astype(np.float64)
+    time_s, distance_mm = flight.time_until_s(tolerance_m), MM_PER_M * flight.left[-1]
+    return {"success_share": near, TIME_TO_GOAL.key: time_s, FINAL_DISTANCE.key: distance_mm}
 
 
 def _curve(flight: Flight) -> list[list[float]]:
