@@ -19,8 +19,8 @@ RUST := $(shell find rust -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 EXTENSION := $(wildcard magworm_gym/_magworm*.so)
 WHEEL_VENV := target/wheel-venv
 COMPARE = $(VENV_PYTHON) training/evaluate.py --budget $(BUDGET)
-# Results of this size are those of README and docs/, which `make docs` fills.
-KEEP = $(if $(filter small,$(BUDGET)),--keep docs/results/$(1).json)
+# Results of this size are those of README and docs/, which are filled from them.
+KEEP = $(if $(filter small,$(BUDGET)),--keep docs/results/$(1).json && $(VENV_PYTHON) docs/results.py)
 
 export PYO3_PYTHON := $(VENV_PYTHON)
 
