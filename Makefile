@@ -54,9 +54,9 @@ turning-map: install-test  ## how far a pass beside the robot turns it, when it 
 	$(VENV_PYTHON) -m studies measure turning
 	$(VENV_PYTHON) -m studies render turning
 
-study-error: install-test  ## error against run time: docs/performance.md; minutes
+study-error: install-test  ## error against run time: docs/performance.md, docs/speed.md; minutes
 	$(VENV_PYTHON) -m studies measure error
-	$(VENV_PYTHON) -m studies render error
+	$(VENV_PYTHON) -m studies render error speed
 
 study-growth: install-test  ## how cost grows with environments, nodes, magnets: docs/growth.md; minutes
 	$(VENV_PYTHON) -m studies measure growth
@@ -64,7 +64,7 @@ study-growth: install-test  ## how cost grows with environments, nodes, magnets:
 
 study-needs: need-valgrind install-test count-program  ## what each effect of a scene costs: docs/needs.md
 	$(VENV_PYTHON) -m studies measure needs
-	$(VENV_PYTHON) -m studies render needs
+	$(VENV_PYTHON) -m studies render needs error speed
 
 study-peak: need-valgrind install-test count-program  ## arithmetic of a step against the core's peak: docs/peak.md
 	cargo build --release --package magworm-py --example peak

@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from studies.kit.data import read_rows, write_rows
 from studies.kit.page import page
@@ -39,54 +39,45 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Results:
-    """All that was measured."""
+    """All that was measured; each is a file of that name."""
 
-    core: Sequence[CoreTime]
-    times: Sequence[StepTime]
-    works: Sequence[Work]
-    chains: Sequence[Chain]
-    systems: Sequence[Systems]
-    classes: Sequence[PhaseClasses]
+    core: list[CoreTime]
+    times: list[StepTime]
+    operations: list[Work]
+    chains: list[Chain]
+    systems: list[Systems]
+    instructions: list[PhaseClasses]
 
 
-FILES: dict[str, tuple[str, type[Any]]] = {
-    "core": ("core.csv", CoreTime),
-    "times": ("times.csv", StepTime),
-    "works": ("operations.csv", Work),
-    "chains": ("chains.csv", Chain),
-    "systems": ("systems.csv", Systems),
-    "classes": ("instructions.csv", PhaseClasses),
-}
-"""Where each of them is kept."""
+ROWS: dict[str, type[Any]] = {name: get_args(of)[0] for name, of in get_type_hints(Results).items()}
 
 
 def measure(_: argparse.Namespace) -> None:
     """Times the core, counts and times a step. Minutes."""
     said = Stopwatch().said
-    found: dict[str, list[Any]] = {name: [] for name in FILES}
-    found["core"] = core(RUNS)
+    rounds = core(RUNS)
     said("core")
-    latency_ns = next(iter(all_rates(found["core"]).values())).waits_ns()
+    found = Results(rounds, [], [], [], [], [])
+    latency_ns = next(iter(all_rates(rounds).values())).waits_ns()
     for place, preset in PLACES.items():
-        works, chains, systems = count(place, preset, latency_ns)
-        found["works"] += works
-        found["chains"] += chains
-        found["systems"] += systems
+        operations, chains, systems = count(place, preset, latency_ns)
+        found.operations.extend(operations)
+        found.chains.extend(chains)
+        found.systems.extend(systems)
     said("operations")
     for place, preset in PLACES.items():
-        found["times"] += times(place, preset, RUNS)
+        found.times.extend(times(place, preset, RUNS))
     said("times")
-    found["classes"] = count_classes([(chain.place, chain.phase) for chain in found["chains"]])
+    found.instructions.extend(count_classes((chain.place, chain.phase) for chain in found.chains))
     said("instructions")
-    for name, (file, kind) in FILES.items():
-        write_rows(DATA / file, kind, found[name])
+    for name, kind in ROWS.items():
+        write_rows(DATA / f"{name}.csv", kind, getattr(found, name))
 
 
 def pages() -> dict[str, str]:
     """The page from the data."""
-    return {
-        "peak.md": text(Results(**{name: read_rows(DATA / file, of) for name, (file, of) in FILES.items()}))
-    }
+    rows = {name: read_rows(DATA / f"{name}.csv", kind) for name, kind in ROWS.items()}
+    return {"peak.md": text(Results(**rows))}
 
 
 def text(results: Results) -> str:
@@ -107,16 +98,16 @@ def text(results: Results) -> str:
         line_bytes=LINE_BYTES,
         resources=account,
         classes=CLASSES,
-        compiler=results.classes[0].compiler,
+        compiler=results.instructions[0].compiler,
     )
 
 
 def step_of(results: Results, place: str, widest: str) -> Step:
     """What was found of a step in the plane or in space."""
     chains = {chain.phase: chain for chain in results.chains if chain.place == place}
-    classes = {found.phase: found.classes for found in results.classes if found.place == place}
+    classes = {found.phase: found.classes for found in results.instructions if found.place == place}
     timed = {(t.instruction_set, t.lanes, t.phase): t.time for t in results.times if t.place == place}
-    wanted = wanted_shares([work for work in results.works if work.place == place])
+    wanted = wanted_shares([work for work in results.operations if work.place == place])
     cycle = cycle_ns(results.core)
     phases = [
         Account(
@@ -128,7 +119,7 @@ def step_of(results: Results, place: str, widest: str) -> Step:
             classes=classes[work.phase],
             per_cycle=classes[work.phase].total * cycle / timed["AVX2", LANES, work.phase].median_ns,
         )
-        for work in results.works
+        for work in results.operations
         if (work.place, work.lanes) == (place, LANES)
     ]
     return Step(
