@@ -346,7 +346,7 @@ def test_rows_of_a_stage_that_share_their_time_are_averaged(tmp_path):
     assert log.time_s.tolist() == [0.0, 0.1, 0.2]
     assert log.points_m[:, 0] == pytest.approx([0.0, 1e-6, 1e-5]) and log.spread_m == pytest.approx(1e-6)
     _, (remark,) = drive_from_stage(log, 0.0, 0.2)
-    assert "3 waypoints stand for its 4 rows and miss none by more than 1e-06 m" in remark
+    assert "3 waypoints for its 4 rows miss none by more than 1e-06 m" in remark
     _, (remark, _) = drive_from_stage(log, 0.0, 1e-3)
     assert "are 0 to 0.2 s, and the experiment lasts 0.001 s: are they in s?" in remark
     with pytest.raises(ProblemError, match=r"line 4, time_s is 0.1; allowed: rising"):

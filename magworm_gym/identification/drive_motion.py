@@ -107,40 +107,40 @@ def drive_from_stage(log: StageLog, start_s: float, duration_s: float) -> tuple[
         remarks.append(f"{told} of 0 to {duration_s:g} s; in the rest the drive stands still")
     if last_s > MOST_LONGER * duration_s:
         remarks.append(f"{told}, and the experiment lasts {duration_s:g} s: are they in s?")
-    motion, more = _followed(log.file, time_s, log.points_m, duration_s, log.rows, log.spread_m)
+    motion, more = waypoints(log.file, time_s, log.points_m, duration_s, log.rows, log.spread_m)
     return motion, remarks + more
 
 
-def _followed(
+def waypoints(
     file: Path, time_s: Floats, points_m: Floats, duration_s: float, rows: int, spread_m: float = 0.0
 ) -> tuple[dict[str, Any], list[str]]:
-    """Waypoints of a measured motion, and by how much they miss a row of it at most."""
-    motion, error_m = waypoints(time_s, points_m, duration_s)
-    error_m += spread_m
-    told = f"{file}: {len(motion['time_s'])} waypoints stand for its {rows} rows and miss none by more than"
-    if error_m > FARTHEST_M:
-        raise ProblemError(f"{told} {error_m:.2g} m; allowed: {FARTHEST_M:g} m")
-    return motion, [f"{told} {error_m:.2g} m"] if error_m > 0.0 else []
-
-
-def waypoints(time_s: Floats, points_m: Floats, duration_s: float) -> tuple[dict[str, Any], float]:
-    """A motion of kind ``waypoints`` that starts at time 0, and how far it is off at most [m].
+    """A motion of kind ``waypoints`` that starts at time 0, and by how much it misses a row at most.
 
     Args:
+        file: Where the motion was measured.
         time_s: Times, rising (W,) [s]; those before 0 are left out.
         points_m: Places of the drive (W, 2) [m].
         duration_s: Where there are too many, those after it are left out [s].
+        rows: Number of rows of the file.
+        spread_m: By how much they miss the places at most [m].
+
+    Raises:
+        ProblemError: Waypoints cannot follow it.
     """
     first = np.array([np.interp(0.0, time_s, points_m[:, axis]) for axis in (0, 1)])
     later = time_s > 0.0
     time_s, points_m = np.append(0.0, time_s[later]), np.vstack([first, points_m[later]])
-    error_m = 0.0
+    error_m = spread_m
     if len(time_s) > MOST_WAYPOINTS:
         until = int(np.searchsorted(time_s, duration_s)) + 1
-        kept, error_m = thinned(time_s[:until], points_m[:until], MOST_WAYPOINTS)
-        time_s, points_m = time_s[kept], points_m[kept]
+        kept, missed_m = thinned(time_s[:until], points_m[:until], MOST_WAYPOINTS)
+        time_s, points_m, error_m = time_s[kept], points_m[kept], error_m + missed_m
+    told = f"{file}: {len(time_s)} waypoints for its {rows} rows miss none by more than {error_m:.2g} m"
+    if error_m > FARTHEST_M:
+        raise ProblemError(f"{told}; allowed: {FARTHEST_M:g} m")
     x_m, y_m = points_m.T
-    return {"kind": "waypoints", "time_s": time_s.tolist(), "x_m": x_m.tolist(), "y_m": y_m.tolist()}, error_m
+    motion = {"kind": "waypoints", "time_s": time_s.tolist(), "x_m": x_m.tolist(), "y_m": y_m.tolist()}
+    return motion, [told] if error_m > 0.0 else []
 
 
 def thinned(time_s: Floats, points_m: Floats, most: int) -> tuple[list[int], float]:
@@ -201,7 +201,7 @@ def drive_from_film(
         points = points + _start_offset(tracks, film, start_m)
     if height_m is not None:
         points[:, 1] = height_m
-    return _followed(tracks.file, time_s[seen], points, duration_s, len(points))
+    return waypoints(tracks.file, time_s[seen], points, duration_s, len(points))
 
 
 def _start_offset(tracks: Tracks, film: FilmTable, start_m: Floats) -> Floats:

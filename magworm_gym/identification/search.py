@@ -7,7 +7,7 @@ then, and a candidate ends as soon as its loss is beyond what can matter.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -64,7 +64,7 @@ class Evolution:
     idle: int = 0
     generations: int = 0
     parents: float = np.inf
-    ended: str = field(default="")
+    ended: str = ""
 
     def tell(self, units: Floats, losses: Floats, settings: SearchSettings) -> None:
         """Learns from a generation."""
@@ -114,10 +114,12 @@ def search(
     if scattered.min() >= BROKEN:
         raise NothingRunsError("no candidate within the bounds can be simulated")
     seeds = generator.integers(SEED_LIMIT, size=settings.restarts)
-    evolutions = [
-        _evolution(strategy(scatter[at], int(seed)), scatter[at], float(scattered[at]), known)
-        for at, seed in zip(_origins(scatter, scattered, settings.restarts), seeds, strict=True)
-    ]
+    evolutions = []
+    for at, seed in zip(_origins(scatter, scattered, settings.restarts), seeds, strict=True):
+        evolution = Evolution(strategy(scatter[at], int(seed)), scatter[at])
+        if scattered[at] <= known:  # else it may be less than exact; its first parents have to be as good
+            evolution.loss, evolution.parents = float(scattered[at]), known
+        evolutions.append(evolution)
     best = float(scattered.min())
     for generation in range(settings.generations):
         active = [evolution for evolution in evolutions if not evolution.ended]
@@ -136,20 +138,6 @@ def search(
     for evolution in evolutions:
         evolution.ended = evolution.ended or "out of generations"
     return sorted(evolutions, key=lambda evolution: evolution.loss)
-
-
-def _evolution(strategy: Any, origin: Floats, loss: float, known: float) -> Evolution:
-    """One that begins at a scattered point; its first parents have to be as good as the best of these.
-
-    Args:
-        strategy: The ``cmaes.CMA``.
-        origin: The point (P,).
-        loss: Its loss, which may be less than exact beyond ``known`` [1].
-        known: Loss up to which those of scattered points are exact [1].
-    """
-    if loss > known:
-        return Evolution(strategy, origin)
-    return Evolution(strategy, origin, loss, parents=known)
 
 
 def _scattered(
