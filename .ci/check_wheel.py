@@ -21,6 +21,7 @@ package = Path(magworm_gym.__file__).parent
 repository = Path(__file__).resolve().parent.parent
 assert package.parent != repository, f"{package} is not the installed wheel"
 assert (package / "py.typed").exists() and (package / "_magworm.pyi").exists(), "the wheel is not typed"
+assert (package / "identification/report.md.j2").exists(), "the wheel lacks the template of reports"
 
 for identifier in (magworm_gym.CRAWL_ID, magworm_gym.TURN_ID, magworm_gym.REACH_ID):
     worm = gymnasium.make(identifier)
