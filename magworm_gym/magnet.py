@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magworm_gym import _magworm
-from magworm_gym.arguments import choice, numbers, shown, whole
+from magworm_gym.arguments import numbers, shown, whole
 
 ALONG_HEIGHT_T = (0.0, 0.0, 1.22)
 """The magnets of the MagWorm paper: 1.22 T along the height."""
 
-MODELS = ("cuboid", "dipole")
 MAX_ORDER = 10
 
 
@@ -92,7 +91,6 @@ def wrench(
             positive, an order out of range, a quaternion of length 0, a value that is not finite, an
             unknown model, or shapes that do not fit.
     """
-    choice("model", model, MODELS)
     if whole(order) not in range(1, MAX_ORDER + 1):
         raise ValueError(f"order is {shown(order)}; allowed: 1 to {MAX_ORDER}")
     position, quaternion, drive, body = _vectors(
@@ -120,16 +118,12 @@ def _vectors(**given: tuple[ArrayLike, int]) -> list[NDArray[np.float64]]:
         array = numbers(value)
         if array is None:
             raise ValueError(f"{name} is {shown(value)}; it must be numbers, (..., {length})")
+        if array.shape[-1:] != (length,):
+            raise ValueError(f"{name} has shape {array.shape}; its last axis must have length {length}")
+        for place in map(tuple, np.argwhere(~np.isfinite(array).all(axis=-1)).tolist()):
+            where = f"{name}{list(place)}" if place else name
+            raise ValueError(f"{where} is {array[place].tolist()}; allowed: finite numbers")
         arrays[name] = array
-        if arrays[name].shape[-1:] != (length,):
-            raise ValueError(
-                f"{name} has shape {arrays[name].shape}; its last axis must have length {length}"
-            )
-        infinite = np.argwhere(~np.isfinite(arrays[name]).all(axis=-1))
-        if len(infinite):
-            place = tuple(infinite[0])
-            where = f"{name}{[int(k) for k in place]}" if place else name
-            raise ValueError(f"{where} is {arrays[name][place].tolist()}; allowed: finite numbers")
     try:
         shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays.values()))
     except ValueError as error:

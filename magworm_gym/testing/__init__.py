@@ -57,7 +57,7 @@ def check_vector_env(
         AssertionError: Checks failed; one sentence for each.
         TypeError: `env_or_factory` is neither an environment nor a callable.
     """
-    bench = Bench(env_or_factory, seed=seed, max_steps=max_steps, options=options)
+    bench = Bench(env_or_factory, seed, max_steps, options)
     findings = tuple(check(bench) for check in CHECKS)
     report = Report(bench.name, findings)
     bad = [*report.with_outcome("failed"), *(report.with_outcome("noted") if strict else ())]

@@ -6,9 +6,9 @@ import inspect
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import wraps
-from itertools import islice
+from itertools import count, islice
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,10 @@ from magworm_gym.testing.report import Finding, Noted, Skipped
 AnyVectorEnv = VectorEnv[Any, Any, Any]
 Flags = NDArray[np.bool_]
 Change = Callable[[int, Any], Any]
+Examination = Callable[["Bench", AnyVectorEnv], None]
+
+RETURNED = ("observations", "rewards", "terminated", "truncated")
+"""What `step` returns, but for infos."""
 
 FEW_STEPS = 20
 NUM_ENVS = 3
@@ -51,27 +55,31 @@ class Transition:
         return (row, self.rewards[i], self.terminated[i], self.truncated[i])
 
 
+@dataclass
 class Bench:
     """Makes environments and plays them with random actions.
 
-    Args:
+    Attributes:
         given: An environment, or a callable that makes one.
         seed: Of resets and actions.
         max_steps: Steps after which waiting for the end of an episode is given up.
-        options: Options of each reset.
+        reset_options: Options of each reset.
+        name: Of the environment made last.
 
     Raises:
         TypeError: `given` is neither.
     """
 
-    def __init__(self, given: Any, *, seed: int, max_steps: int, options: dict[str, Any] | None) -> None:
-        if not isinstance(given, VectorEnv) and not callable(given):
-            raise TypeError(f"expected a VectorEnv or a callable that makes one, got {given!r}")
-        self.given = given
-        self.seed = seed
-        self.max_steps = max_steps
-        self._options = options
-        self.name = repr(given)
+    given: Any
+    seed: int
+    max_steps: int
+    reset_options: dict[str, Any] | None
+    name: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.given, VectorEnv) and not callable(self.given):
+            raise TypeError(f"expected a VectorEnv or a callable that makes one, got {self.given!r}")
+        self.name = repr(self.given)
 
     @property
     def is_factory(self) -> bool:
@@ -94,9 +102,21 @@ class Bench:
         self.name = repr(env)
         return env
 
+    def reset(self, env: AnyVectorEnv, seed: Any = None, **more: Any) -> Any:
+        """What a reset with the options, and more of them, returns; None as seed gives none."""
+        return env.reset(seed=seed, options=self.options(**more))
+
+    def assert_refused(self, env: AnyVectorEnv, what: str, **reset: Any) -> None:
+        """A reset with these arguments has to raise something."""
+        try:
+            self.reset(env, **reset)
+        except Exception:
+            return
+        raise AssertionError(f"{what} accepted for {env.num_envs} environments")
+
     def options(self, **more: Any) -> dict[str, Any] | None:
         """A fresh copy of the options: an environment may keep or change what it is given."""
-        return deepcopy({**(self._options or {}), **more}) or None
+        return deepcopy({**(self.reset_options or {}), **more}) or None
 
     def play(
         self, env: AnyVectorEnv, seed: Any = None, *, change: Change | None = None
@@ -109,9 +129,8 @@ class Bench:
             change: Returns other actions, from the number of the step and the actions drawn.
         """
         env.action_space.seed(self.seed)
-        after, _ = env.reset(seed=self.seed if seed is None else seed, options=self.options())
-        step = 0
-        while True:
+        after, _ = self.reset(env, self.seed if seed is None else seed)
+        for step in count():
             actions = env.action_space.sample()
             actions = actions if change is None else change(step, actions)
             before = deepcopy(after)
@@ -119,9 +138,8 @@ class Bench:
             # Whoever gets the transition may write into it.
             after, done = deepcopy(transition.observations), transition.done.copy()
             yield transition
-            step += 1
             if declared_mode(env) is AutoresetMode.DISABLED and done.any():
-                after, _ = env.reset(seed=None, options=self.options(reset_mask=done))
+                after, _ = self.reset(env, reset_mask=done)
 
     def record(
         self, env: AnyVectorEnv, seed: Any = None, *, change: Change | None = None
@@ -146,20 +164,18 @@ class Bench:
         )
 
 
-def finding(title: str) -> Callable[[Callable[[Bench, AnyVectorEnv], None]], Callable[[Bench], Finding]]:
+def finding(title: str) -> Callable[[Examination], Callable[[Bench], Finding]]:
     """Turns a function that raises into a check that reports, on an environment of its own."""
 
-    def decorate(examine: Callable[[Bench, AnyVectorEnv], None]) -> Callable[[Bench], Finding]:
+    def decorate(examine: Examination) -> Callable[[Bench], Finding]:
         @wraps(examine)
         def check(bench: Bench) -> Finding:
             env = None
             try:
                 env = bench.make()
                 examine(bench, env)
-            except Noted as note:
-                return Finding(title, "noted", str(note))
-            except Skipped as reason:
-                return Finding(title, "skipped", str(reason))
+            except (Noted, Skipped) as reason:
+                return Finding(title, reason.outcome, str(reason))
             except AssertionError as failure:
                 return Finding(title, "failed", str(failure) or "an assertion within the environment failed")
             except Exception as error:

@@ -15,6 +15,7 @@ from gymnasium.vector.utils import batch_space
 
 from magworm_gym.testing.bench import (
     FEW_STEPS,
+    RETURNED,
     AnyVectorEnv,
     Bench,
     declared_mode,
@@ -72,7 +73,7 @@ def signature(bench: Bench, env: AnyVectorEnv) -> None:
 @finding("reset returns observations and infos")
 def reset(bench: Bench, env: AnyVectorEnv) -> None:
     """Type and space of what `reset` returns."""
-    result = env.reset(seed=bench.seed, options=bench.options())
+    result = bench.reset(env, bench.seed)
     assert isinstance(result, tuple) and len(result) == 2, (
         f"reset returned {type(result).__name__}; it must be a tuple (observations, infos)"
     )
@@ -98,10 +99,7 @@ def freshness(bench: Bench, env: AnyVectorEnv) -> None:
     """Users keep what they get: no call may write into what an earlier one returned, or share it."""
     kept: list[tuple[Any, Any]] = []
     for transition in islice(bench.play(env), FEW_STEPS):
-        returned = {
-            name: getattr(transition, name)
-            for name in ("observations", "rewards", "terminated", "truncated", "infos")
-        }
+        returned = {name: getattr(transition, name) for name in (*RETURNED, "infos")}
         for earlier, _ in kept[-2:]:
             for name, data in returned.items():
                 assert not share_memory(earlier[name], data), (
@@ -118,19 +116,19 @@ def ownership(bench: Bench, env: AnyVectorEnv) -> None:
     """Algorithms write into what they get (a bootstrap value onto rewards): the environment must not mind."""
     expected = bench.record(env)
     for transition, untouched in zip(bench.play(env), expected, strict=False):
-        for name in ("observations", "rewards", "terminated", "truncated"):
+        for name in RETURNED:
             data = getattr(transition, name)
             assert equal(data, getattr(untouched, name)), (
                 f"{name} depend on what a user wrote into the arrays returned before"
             )
-        for name in ("observations", "rewards", "terminated", "truncated"):
+        for name in RETURNED:
             _overwrite(name, getattr(transition, name))
 
 
 @finding("infos are arrays beside masks")
 def infos(bench: Bench, env: AnyVectorEnv) -> None:
     """The form of infos, also where episodes end."""
-    _, reset_infos = env.reset(seed=bench.seed, options=bench.options())
+    _, reset_infos = bench.reset(env, bench.seed)
     _assert_infos(reset_infos, env.num_envs, "reset")
     keys: set[str] = set()
     for count, transition in enumerate(islice(bench.play(env), bench.max_steps)):
@@ -145,7 +143,7 @@ def infos(bench: Bench, env: AnyVectorEnv) -> None:
 @finding("options are left unchanged")
 def options(bench: Bench, env: AnyVectorEnv) -> None:
     """The dictionary of options belongs to the caller."""
-    env.reset(seed=bench.seed, options=bench.options())
+    bench.reset(env, bench.seed)
     given = bench.options() or {}
     if declared_mode(env) is AutoresetMode.DISABLED:
         given["reset_mask"] = np.ones(env.num_envs, np.bool_)
@@ -165,7 +163,7 @@ def frames(bench: Bench, env: AnyVectorEnv) -> None:
     """Number, shape and dtype of frames."""
     if env.render_mode != "rgb_array":
         raise Skipped(f"render_mode is {env.render_mode!r}, not 'rgb_array'")
-    env.reset(seed=bench.seed, options=bench.options())
+    bench.reset(env, bench.seed)
     drawn: Any = env.render()
     assert isinstance(drawn, (tuple, list)) and len(drawn) == env.num_envs, (
         f"render returned {type(drawn).__name__}; it must be a tuple of {env.num_envs} frames"
@@ -183,35 +181,23 @@ def closing(bench: Bench, env: AnyVectorEnv) -> None:
     """A second `close` does nothing."""
     if not bench.is_factory:
         raise Skipped("an environment given itself is left open")
-    env.reset(seed=bench.seed, options=bench.options())
+    bench.reset(env, bench.seed)
     env.close()
     assert env.closed, "close() was called, but closed is False"
     env.close()
 
 
-CHECKS = (
-    attributes,
-    spaces,
-    signature,
-    reset,
-    step,
-    freshness,
-    ownership,
-    infos,
-    options,
-    frames,
-)
+CHECKS = (attributes, spaces, signature, reset, step, freshness, ownership, infos, options, frames)
 
 
 def _assert_observations(env: AnyVectorEnv, observations: Any, source: str) -> None:
     space = env.observation_space
     if isinstance(observations, np.ndarray):
-        assert observations.shape == space.shape, (
-            f"observations of {source} have shape {observations.shape}; observation_space has {space.shape}"
-        )
-        assert observations.dtype == space.dtype, (
-            f"observations of {source} have dtype {observations.dtype}; observation_space has {space.dtype}"
-        )
+        for name in ("shape", "dtype"):
+            found, expected = getattr(observations, name), getattr(space, name)
+            assert found == expected, (
+                f"observations of {source} have {name} {found}; observation_space has {expected}"
+            )
     assert observations in space, f"observations of {source} lie outside observation_space"
 
 

@@ -54,6 +54,10 @@ class Report:
 class Noted(Exception):
     """A check found what the interface permits, but users may trip over."""
 
+    outcome: Outcome = "noted"
+
 
 class Skipped(Exception):
     """A check found nothing to check."""
+
+    outcome: Outcome = "skipped"
