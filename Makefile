@@ -91,7 +91,7 @@ identify-joint: install-test  ## one robot for all figures, from blind starts, f
 ##@ Parts
 
 install: install-test  ## .venv with the extension and all extras
-lint: lint-layers lint-rust lint-python  ## layers, formatting, clippy, ruff, mypy, stubs
+lint: lint-layers lint-rust lint-python  ## layers, formatting, clippy, ruff, import-linter, mypy, stubs
 bench: install-test  ## time of a wrench, a step, and the throughput of environments
 	cargo bench --package magworm
 	$(VENV_PYTHON) -m studies measure speed --out runs/bench/speed.csv
@@ -135,9 +135,10 @@ lint-rust: need-rust-checks $(VENV)/.made  ## cargo fmt, clippy
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets -- --deny warnings
 
-lint-python: install-test  ## ruff, mypy, stubtest
+lint-python: install-test  ## ruff, import-linter, mypy, stubtest
 	$(VENV_PYTHON) -m ruff check .
 	$(VENV_PYTHON) -m ruff format --check .
+	$(dir $(VENV_PYTHON))lint-imports
 	$(VENV_PYTHON) -m mypy
 	$(VENV_PYTHON) -m mypy.stubtest --mypy-config-file pyproject.toml magworm_gym._magworm
 

@@ -105,7 +105,7 @@ def test_an_unknown_setting_is_named(table: str, tmp_path: Path) -> None:
     inner["wings"] = 2
     with pytest.raises(UsageError, match="wings") as mistake:
         prepared(values, tmp_path)
-    assert "allowed: " in str(mistake.value) and "\n" not in str(mistake.value)
+    assert "allowed" in str(mistake.value) and "\n" not in str(mistake.value)
 
 
 @pytest.mark.parametrize(

@@ -18,12 +18,12 @@ from safetensors.numpy import save
 from magworm_gym.atomic_files import replace_file
 
 KEPT = 2
-ARRAY = "array"
-"""Key that stands for an array in the JSON, with its name in the file."""
+ARRAY, BYTES = "array", "bytes"
+"""Keys that stand for an array or for bytes in the JSON, with their name in the file."""
 NAME = re.compile(r"(\d{12})-([0-9a-f]{32})\.safetensors")
 
 Tree = dict[str, Any]
-"""Numbers, text, None, arrays, and lists and dicts of them."""
+"""Numbers, text, None, arrays, bytes, and lists and dicts of them."""
 
 
 def save_checkpoint(folder: Path, steps: int, state: Tree) -> None:
@@ -76,6 +76,9 @@ def _split(tree: Any, name: str, arrays: dict[str, np.ndarray[Any, Any]]) -> Any
     if isinstance(tree, np.ndarray):
         arrays[name] = tree
         return {ARRAY: name}
+    if isinstance(tree, bytes):
+        arrays[name] = np.frombuffer(tree, np.uint8)
+        return {BYTES: name}
     if isinstance(tree, dict):
         return {key: _split(value, f"{name}/{key}", arrays) for key, value in tree.items()}
     if isinstance(tree, (list, tuple)):
@@ -88,5 +91,7 @@ def _joined(plain: Any, arrays: dict[str, np.ndarray[Any, Any]]) -> Any:
     if isinstance(plain, dict):
         if plain.keys() == {ARRAY}:
             return arrays[plain[ARRAY]]
+        if plain.keys() == {BYTES}:
+            return arrays[plain[BYTES]].tobytes()
         return {key: _joined(value, arrays) for key, value in plain.items()}
     return [_joined(value, arrays) for value in plain] if isinstance(plain, list) else plain

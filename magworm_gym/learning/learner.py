@@ -3,23 +3,22 @@
 import importlib
 from abc import ABC, abstractmethod
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
-from msgspec import Struct
+from msgspec import Meta
 
+from magworm_gym.documents import Table
 from magworm_gym.learning.checkpoints import Tree
 from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.place import Place
 from magworm_gym.policy import Network, Normaliser
 
+Share = Annotated[float, Meta(ge=0.0, le=1.0)]
+"""A setting from 0 to 1."""
+
 
 class Round(NamedTuple):
-    """What happened between two moments at which a learner can be kept.
-
-    Attributes:
-        steps: Environment steps, those of all environments together.
-        reward: Sum of the rewards of all of them, as the task gives them.
-    """
+    """Environment steps between two moments at which a learner can be kept, and the sum of their rewards."""
 
     steps: int
     reward: float
@@ -39,8 +38,8 @@ class Learner(ABC):
         folder: Folder for TensorBoard files.
     """
 
-    Options: ClassVar[type[Struct]]
-    """Its table [learner] in the settings: a frozen struct of msgspec that forbids unknown fields."""
+    Options: ClassVar[type[Table]]
+    """Its table [learner] in the settings, frozen."""
 
     @abstractmethod
     def __init__(self, place: Place, options: Any, steps: int, folder: Path) -> None: ...

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import gymnasium
+from gymnasium.vector import AutoresetMode
 
 from magworm_gym import MagWormVectorEnv
 from magworm_gym.learning.command_line import UsageError
@@ -44,24 +45,24 @@ class Place:
         """Seed of the first environment; those of the others follow."""
         return self.seed * SEED_STRIDE
 
-    def native(self, **arguments: Any) -> MagWormVectorEnv:
-        """The batch as a vector environment of Gymnasium; ``arguments`` are added to those of the settings.
+    def native(self) -> MagWormVectorEnv:
+        """The batch as a vector environment of Gymnasium, which resets in the step that ends an episode.
 
         Raises:
             UsageError: There is no such environment, or it does not take the arguments.
             SceneError: The scene cannot be simulated.
         """
-        return self._made(MagWormVectorEnv, arguments)
+        return self._made(MagWormVectorEnv, autoreset_mode=AutoresetMode.SAME_STEP)
 
     def for_stable_baselines(self) -> "MagWormSB3VecEnv":
         """The batch for Stable-Baselines3, seeded. Raises as :meth:`native` does."""
         from magworm_gym.sb3 import MagWormSB3VecEnv
 
-        robots = self._made(MagWormSB3VecEnv, {})
+        robots = self._made(MagWormSB3VecEnv)
         robots.worms.reset(seed=self.first_seed)  # the batch's own generator too: it is part of the state
         return robots
 
-    def _made(self, kind: Callable[..., Made], arguments: dict[str, Any]) -> Made:
+    def _made(self, kind: Callable[..., Made], **arguments: Any) -> Made:
         registered = gymnasium.registry.get(self.environment_id)
         if registered is None or not str(registered.vector_entry_point).startswith("magworm_gym."):
             known = [name for name in gymnasium.registry if name.startswith("MagWorm/")]

@@ -7,11 +7,12 @@ from msgspec import Meta
 from stable_baselines3 import PPO
 
 from magworm_gym.learning.demonstration import family_of, teach
+from magworm_gym.learning.learner import Share
 from magworm_gym.learning.place import Place
-from magworm_gym.learning.sb3 import Rate, Sb3Learner, Sb3Options, Share, Size, Weight
+from magworm_gym.learning.sb3 import Rate, Sb3Learner, Sb3Options, Size, Weight
 
 
-class PpoOptions(Sb3Options, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class PpoOptions(Sb3Options, frozen=True, kw_only=True):
     """Arguments of ``stable_baselines3.PPO`` under their names, and a teacher.
 
     Attributes:
@@ -20,11 +21,11 @@ class PpoOptions(Sb3Options, frozen=True, forbid_unknown_fields=True, kw_only=Tr
 
     teacher: Annotated[str | None, Meta(description="the name of a family of cycles")] = None
     n_steps: Size = 32
-    batch_size: Annotated[int, Meta(ge=2, le=10**6, description="a whole number from 2 to 10^6")] = 2048
-    n_epochs: Annotated[int, Meta(ge=1, le=1000, description="a whole number from 1 to 1000")] = 5
+    batch_size: Annotated[int, Meta(ge=2, le=10**6)] = 2048
+    n_epochs: Annotated[int, Meta(ge=1, le=1000)] = 5
     gae_lambda: Share = 0.95
     clip_range: Rate = 0.2
-    target_kl: Annotated[Rate | None, Meta(description="a number above 0, up to 1")] = None
+    target_kl: Rate | None = None
     ent_coef: Weight = 0.0
     vf_coef: Weight = 0.5
     max_grad_norm: Annotated[float, Meta(gt=0.0, le=1e6, description="a number above 0, up to 10^6")] = 0.5

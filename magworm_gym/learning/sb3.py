@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 import torch
-from msgspec import Meta, Struct, structs
+from msgspec import Meta, structs
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import configure
@@ -16,39 +16,33 @@ from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 from stable_baselines3.common.running_mean_std import RunningMeanStd
 from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
+from magworm_gym.documents import Table
 from magworm_gym.learning.actor import network_of, normaliser_of
 from magworm_gym.learning.checkpoints import Tree
 from magworm_gym.learning.command_line import UsageError
-from magworm_gym.learning.learner import Learner, Round
+from magworm_gym.learning.learner import Learner, Round, Share
 from magworm_gym.learning.place import Place
 from magworm_gym.policy import Network, Normaliser
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 
-Share = Annotated[float, Meta(ge=0.0, le=1.0, description="a number from 0 to 1")]
-Weight = Annotated[float, Meta(ge=0.0, le=1e6, description="a number from 0 to 10^6")]
-Size = Annotated[int, Meta(ge=1, le=10**6, description="a whole number from 1 to 10^6")]
+Weight = Annotated[float, Meta(ge=0.0, le=1e6)]
+Size = Annotated[int, Meta(ge=1, le=10**6)]
 Rate = Annotated[float, Meta(gt=0.0, le=1.0, description="a number above 0, up to 1")]
-Interval = Annotated[int, Meta(ge=-1, le=10**6, description="a whole number from -1 to 10^6")]
 Layers = Annotated[
     tuple[Annotated[int, Meta(ge=1, le=4096)], ...],
     Meta(min_length=1, max_length=8, description="one to eight whole numbers from 1 to 4096"),
 ]
 
 
-class LearningRate(Struct, frozen=True, forbid_unknown_fields=True):
-    """A learning rate that falls linearly over the training.
-
-    Attributes:
-        start: At its beginning.
-        end: At its end.
-    """
+class LearningRate(Table, frozen=True):
+    """A learning rate that falls linearly over the training, from ``start`` to ``end``."""
 
     start: Rate = 1e-3
     end: Rate = 1e-4
 
 
-class Sb3Options(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class Sb3Options(Table, frozen=True, kw_only=True):
     """Settings of every algorithm; a subclass adds arguments of its own, under their names.
 
     Attributes:
@@ -64,12 +58,12 @@ class Sb3Options(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     hidden: Layers = (64, 64)
     activation: Literal["tanh", "relu"] = "tanh"
-    log_std_init: Annotated[float, Meta(ge=-20.0, le=2.0, description="a number from -20 to 2")] | None = None
+    log_std_init: Annotated[float, Meta(ge=-20.0, le=2.0)] | None = None
     normalise: bool = False
     learning_rate: LearningRate = LearningRate()
     gamma: Share = 0.99
     use_sde: bool = False
-    sde_sample_freq: Interval = -1
+    sde_sample_freq: Annotated[int, Meta(ge=-1, le=10**6)] = -1
 
 
 class Sb3Learner(Learner):
@@ -130,7 +124,7 @@ class Sb3Learner(Learner):
             "actions": model.action_space.np_random.bit_generator.state,
             "episodes": [{"r": one["r"], "l": one["l"]} for one in model.ep_info_buffer],
             "successes": [*map(bool, model.ep_success_buffer)],
-            "robots": np.frombuffer(self.robots.get_state(), np.uint8),
+            "robots": self.robots.get_state(),
         }
         if self.normalisation is not None:
             state["normalisation"] = [vars(one) for one in statistics(self.normalisation)]
@@ -143,7 +137,7 @@ class Sb3Learner(Learner):
     def restore(self, state: Tree) -> None:
         """See the base class."""
         model, buffer = self.model, getattr(self.model, "replay_buffer", None)
-        self.robots.set_state(state["robots"].tobytes())
+        self.robots.set_state(state["robots"])
         for name, value in {**state["counts"], **state["arrays"]}.items():
             setattr(model, name, value)
         model.set_parameters({name: _parameters(kept) for name, kept in state["parameters"].items()})

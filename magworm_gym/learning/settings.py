@@ -3,35 +3,26 @@
 A file has a table for each environment, named by its identifier, and ``[default]`` for those without one.
 """
 
-import re
-import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, TypeVar
 
 import msgspec
-from msgspec import Meta, Struct
+from msgspec import Meta
 
+from magworm_gym import documents
+from magworm_gym.documents import Table, Text
 from magworm_gym.learning.command_line import UsageError
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-CONFIGS = Path(__file__).parents[2] / "training" / "configs"
 DEFAULT = "default"
 LARGEST_SEED = 2**32 - 1
 
-Count = Annotated[int, Meta(ge=1, le=10**12, description="a whole number from 1 to 10^12")]
-Environments = Annotated[int, Meta(ge=1, le=10**6, description="a whole number from 1 to 10^6")]
-Seed = Annotated[int, Meta(ge=0, le=LARGEST_SEED)]
-Table = Annotated[dict[str, Any], Meta(description="a table")]
-
-Settings = TypeVar("Settings", bound=Struct)
+Count = Annotated[int, Meta(ge=1, le=10**12)]
+Arguments = Annotated[dict[str, Any], Meta(description="a table")]
+AnyTable = TypeVar("AnyTable", bound=msgspec.Struct)
 
 
-class TrainingSettings(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class TrainingSettings(Table, frozen=True, kw_only=True):
     """Everything that decides a training.
 
     Attributes:
@@ -45,23 +36,22 @@ class TrainingSettings(Struct, frozen=True, forbid_unknown_fields=True, kw_only=
         learner: Table [learner]: options of the learner.
     """
 
-    environment_id: Annotated[str, Meta(description="an identifier of Gymnasium's registry")]
-    algorithm: Annotated[str, Meta(description="the name of a learner")] = "ppo"
-    num_envs: Environments = 256
+    environment_id: Text
+    algorithm: Text = "ppo"
+    num_envs: Annotated[int, Meta(ge=1, le=10**6)] = 256
     steps: Count = 2_000_000
     seeds: Annotated[
-        tuple[Seed, ...], Meta(min_length=1, description=f"different whole numbers from 0 to {LARGEST_SEED}")
+        tuple[Annotated[int, Meta(ge=0, le=LARGEST_SEED)], ...],
+        Meta(min_length=1, description=f"different whole numbers from 0 to {LARGEST_SEED}"),
     ] = (0, 1, 2)
     checkpoint_steps: Count = 500_000
-    environment: Table = {}
-    learner: Table = {}
+    environment: Arguments = msgspec.field(default_factory=dict)
+    learner: Arguments = msgspec.field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Raises UsageError where a seed stands twice."""
+        """Checks that no seed stands twice."""
         if len(set(self.seeds)) < len(self.seeds):
-            raise UsageError(
-                f"seeds is {list(self.seeds)}; allowed: different whole numbers from 0 to {LARGEST_SEED}"
-            )
+            raise ValueError(f"seeds is {list(self.seeds)}; allowed: different ones")
 
     def to_json(self) -> dict[str, Any]:
         """The settings as plain values."""
@@ -69,21 +59,10 @@ class TrainingSettings(Struct, frozen=True, forbid_unknown_fields=True, kw_only=
         return plain
 
 
-def checked(values: Any, kind: type[Settings], where: str = "") -> Settings:
-    """Makes settings of plain values.
-
-    Args:
-        values: What a file or a command line gave.
-        kind: What they are to be; each field's ``Meta`` describes what is allowed.
-        where: Name of the table, for the message.
-
-    Raises:
-        UsageError: An unknown name or a value that is not allowed.
-    """
-    try:
-        return msgspec.convert(values, kind)
-    except msgspec.ValidationError as error:
-        raise UsageError(_sentence(str(error), values, kind, where)) from None
+def checked(values: object, kind: type[AnyTable], where: str = "") -> AnyTable:
+    """Makes a table of plain values. Raises UsageError that says field, value and what is allowed."""
+    table: AnyTable = documents.checked(values, kind, where, UsageError)
+    return table
 
 
 def merged(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -97,16 +76,12 @@ def merged(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, A
 
 
 def read_toml(path: Path) -> dict[str, Any]:
-    """Reads a TOML file.
-
-    Raises:
-        UsageError: The file is missing or is not TOML.
-    """
+    """Reads a TOML file. Raises UsageError where it is missing or is not TOML."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return documents.parse_toml(path.read_text(encoding="utf-8"), str(path), UsageError)
     except OSError:
         raise UsageError(f"there is no readable file {path}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except UnicodeDecodeError as error:
         raise UsageError(f"{path} is not TOML: {error}") from None
 
 
@@ -130,40 +105,8 @@ def read_settings(path: Path | None, environment_id: str, changes: Mapping[str, 
 
 
 def read_saved_settings(path: Path) -> TrainingSettings:
-    """Reads settings that a run has kept as JSON.
-
-    Raises:
-        UsageError: There is no such file, or it is damaged.
-    """
+    """Reads settings that a run has kept as JSON. Raises UsageError where they are missing or damaged."""
     try:
         return checked(msgspec.json.decode(path.read_bytes()), TrainingSettings)
-    except (OSError, msgspec.DecodeError):
+    except (OSError, msgspec.DecodeError, RecursionError):
         raise UsageError(f"there is no training to go on with: {path} cannot be read") from None
-
-
-def _sentence(error: str, values: Any, kind: Any, where: str) -> str:
-    """Field, value and what is allowed, from what msgspec says, such as "… - at `$.seeds[0]`"."""
-    path = re.search(r"at `\$(\.[^`]*)`$", error)
-    names = re.sub(r"\[[^]]*\]", "", path[1]).split(".")[1:] if path else []
-    hint = kind
-    for name in names:
-        hint, values = get_type_hints(_bare(hint), include_extras=True)[name], values[name]
-    unknown, field = re.search(r"unknown field `(.*?)`", error), ".".join([where, *names]).strip(".")
-    if unknown:
-        known = ", ".join(sorted(get_type_hints(_bare(hint))))
-        return f"unknown setting {unknown[1]!r}{f' in [{field}]' if field else ''}; allowed: {known}"
-    shown = repr(values)
-    return f"{field or 'settings'} is {shown[:60] + '…' * (len(shown) > 60)}; allowed: {_allowed(hint)}"
-
-
-def _bare(hint: Any) -> Any:
-    return get_args(hint)[0] if get_origin(hint) is Annotated else hint
-
-
-def _allowed(hint: Any) -> str:
-    """What a field may be, in words."""
-    if get_origin(hint) is Literal:
-        return ", ".join(map(str, get_args(hint)))
-    if get_origin(hint) is Annotated:
-        return next(str(meta.description) for meta in hint.__metadata__ if meta.description)
-    return {bool: "true or false"}.get(hint, "a table")
