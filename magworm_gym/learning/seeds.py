@@ -11,8 +11,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from magworm_gym.learning.command_line import UsageError
 from magworm_gym.learning.settings import TrainingSettings
 from magworm_gym.learning.training import FINISHED, train_seed
@@ -51,8 +49,8 @@ def train_seeds(
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, context, _begin_worker, (modules,)) as pool:
         waiting = [
-            pool.submit(train_seed, settings, scenes, seed, folder, row=place % workers, threads=threads)
-            for place, (seed, folder) in enumerate(jobs)
+            pool.submit(train_seed, settings, scenes, seed, folder, alone=False, threads=threads)
+            for seed, folder in jobs
         ]
         try:
             return [job.result() for job in waiting]
@@ -67,7 +65,6 @@ def train_seeds(
 def _begin_worker(modules: Sequence[str]) -> None:
     """A worker ends with the process that started it, which alone hears Ctrl-C: nobody writes on alone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    tqdm.set_lock(threading.RLock())  # its own is one of processes, which is left behind where a worker ends
     threading.Thread(target=_end_with_parent, daemon=True).start()
     for module in modules:
         import_module(module)

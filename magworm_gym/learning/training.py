@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +52,7 @@ def train_seed(
     seed: int,
     folder: Path,
     *,
-    row: int = 0,
+    alone: bool = True,
     threads: int | None = None,
 ) -> dict[str, Any]:
     """Trains one policy, going on from the newest checkpoint that is whole if there is one.
@@ -61,7 +62,7 @@ def train_seed(
         scenes: Scenes to train in, in TOML.
         seed: Seed of policy, exploration and environments.
         folder: Folder of this seed; gets checkpoints, TensorBoard files and, at the end, the policy.
-        row: Line of the terminal for the progress bar, counted from the first one.
+        alone: Whether no other seed is trained beside it.
         threads: Most threads of the simulator; None for all cores. It does not change the results.
 
     Returns:
@@ -73,22 +74,22 @@ def train_seed(
     began, place = time.monotonic(), place_of(settings, scenes, seed, threads)
     worms = place.native()
     learner = new_learner(settings, place, folder)
-    progress = Progress(folder, worms.task, settings.steps, worms.scene.control_step_s, row)
-    taught = _start(learner, progress, folder)
-    first = progress.steps
-    _learn(learner, progress, settings, folder, taught)
+    step_s = worms.scene.control_step_s
+    with closing(Progress(folder, worms.task, settings.steps, step_s, alone=alone)) as progress:
+        taught = _start(learner, progress, folder)
+        first = progress.steps
+        _learn(learner, progress, settings, folder, taught)
     summary = {
         "algorithm": settings.algorithm,
         "seed": seed,
         "steps": progress.steps,
         "taught_steps": taught,
         "resumed_at_step": first,
-        "simulated_s": progress.steps * worms.scene.control_step_s,
+        "simulated_s": progress.steps * step_s,
         "wall_clock_s_since_resume": time.monotonic() - began,
         "curve": progress.curve,
         "curve_unit": progress.unit,
     }
-    progress.close()
     _save_policy(folder / POLICY, learner, settings, worms, seed)
     write_json(folder / FINISHED, summary)
     return summary
