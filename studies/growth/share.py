@@ -66,7 +66,7 @@ class TimedPlace(Place):
 
     def for_stable_baselines(self) -> Timed:
         """See the base class."""
-        return self._made(self.kind, {})
+        return self._made(self.kind)
 
 
 class Replayed:
