@@ -27,7 +27,7 @@ export PYO3_PYTHON := $(VENV_PYTHON)
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo turn reach validate paper turning-map study-error study-stability study-growth study-needs study-peak identify identify-joint test bench count count-write wheel lint format docs clean install \
+.PHONY: help demo turn reach policies validate paper turning-map study-error study-stability study-growth study-needs study-peak identify identify-joint test bench count count-write wheel lint format docs clean install \
 	lint-layers lint-rust lint-python test-rust test-nightly test-python test-docs test-wheel \
 	count-program need-cargo need-python need-rust-checks need-valgrind force
 
@@ -41,6 +41,9 @@ turn: install-train  ## train turning, compare it with belts and two magnets, a 
 
 reach: install-train  ## the same for crawling to a point
 	$(COMPARE) reach --out $(REACH_OUT) $(call KEEP,reach)
+
+policies: install-train  ## train the policies that come with the package again, a quarter of an hour
+	$(VENV_PYTHON) -m training.ship_policies
 
 validate: install-test need-cargo  ## compare the simulator with exact solutions, write docs/validation.md
 	$(VENV_PYTHON) -m studies measure validation

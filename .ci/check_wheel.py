@@ -34,5 +34,12 @@ worms.reset(seed=0)
 observations, rewards, _, _, _ = worms.step(np.zeros((16, 3)))
 assert observations.shape == worms.observation_space.shape and np.isfinite(rewards).all()
 
+assert magworm_gym.policies(), "the wheel brings no policies"
+for name in magworm_gym.policies():
+    policy = magworm_gym.load_policy(name)
+    driven = policy.make_vec(num_envs=2)
+    seen, _ = driven.reset(seed=0)
+    driven.step(policy(seen))
+
 version = distribution("magworm-gym").version
 print(f"wheel of magworm-gym {version}: runs beside {', '.join(sorted(installed - {'magworm-gym', 'pip'}))}")
