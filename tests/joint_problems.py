@@ -6,7 +6,7 @@ import numpy as np
 
 from magworm_gym import Recording, Scene
 from magworm_gym.identification import make_problem
-from magworm_gym.identification.claims import curve_of
+from magworm_gym.identification.claims import Curve
 from magworm_gym.identification.quantities import Quantity
 from magworm_gym.identification.sweep import Sweep
 
@@ -92,4 +92,4 @@ def of(recordings, name):
 
 def curve(name, conditions=1, speeds=SPEEDS):
     sweep = Sweep(name, moving(0.2), speeds, ({},) * conditions)
-    return curve_of(sweep, STRIDE)
+    return Curve(sweep, STRIDE)

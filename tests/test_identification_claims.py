@@ -7,7 +7,7 @@ import pytest
 from joint_problems import REPOSITORY, curve, of, paths
 
 from magworm_gym.identification.claim_kinds import KINDS
-from magworm_gym.identification.claims import ClaimTable, Curve, claim
+from magworm_gym.identification.claims import ClaimTable, claim
 
 
 def made_claim(kind, *curves, other=None, amount=0.0, within=1e-12, low=0.2, high=0.4):
@@ -76,9 +76,9 @@ def test_the_mean_of_two_curves_is_over_conditions_too():
 
 
 def test_curves_are_cut_to_a_range_with_both_ends():
-    cut = curve("a").within(0.3, 0.4)
-    assert isinstance(cut, Curve)
-    assert cut.speeds_m_s == (0.3, 0.4) and cut.lanes == (("a/1/0",), ("a/2/0",))
+    cut = replace(curve("a"), low_m_s=0.3, high_m_s=0.4)
+    assert cut.speeds_m_s == (0.3, 0.4)
+    assert cut.values(of(paths(1e-3, 2e-3, 3e-3), "a")).tolist() == [[2e-3], [3e-3]]
 
 
 def test_every_kind_of_claim_is_documented():

@@ -5,7 +5,7 @@ import pytest
 from joint_problems import FAST, HELD, ROBOT, SPEEDS, problem, value
 
 from magworm_gym.identification import identify, write_results
-from magworm_gym.identification.claims import curve_of
+from magworm_gym.identification.claims import Curve
 from magworm_gym.identification.evaluation import BROKEN, Evaluator
 from magworm_gym.identification.quantities import Quantity
 
@@ -18,7 +18,7 @@ def test_parameters_that_robots_share_are_recovered_from_their_curves():
         seen = sweep.record(truth, blank.sample_s)
         for name in ("stride_m", "peak_m.1"):
             kind, *magnet = name.split(".")
-            measured = curve_of(sweep, Quantity(kind, int(magnet[0]) if magnet else None)).values(seen)
+            measured = Curve(sweep, Quantity(kind, int(magnet[0]) if magnet else None)).values(seen)
             pairs = zip(sweep.speeds_m_s, measured[:, 0].tolist(), strict=True)
             claims += [
                 value(f"{sweep.name}.{name}", at, number, within=5e-5, scale=2e-5) for at, number in pairs

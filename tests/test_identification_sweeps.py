@@ -10,7 +10,7 @@ from joint_problems import STRIDE, moving
 sys.path.insert(0, str(Path(__file__).parent.parent))
 
 from magworm_gym import record_scenes
-from magworm_gym.identification.claims import curve_of
+from magworm_gym.identification.claims import Curve
 from magworm_gym.identification.sweep import LANES, Passes, Sweep
 from studies.paper.passes import FRICTIONS, Walk, measured_strides
 
@@ -31,7 +31,7 @@ def test_conditions_are_factors_of_the_scene_and_more_lanes_than_a_block_has():
     conditions = ({"static_friction": 1.0}, {"static_friction": 1.1}, {"static_friction": 1.0})
     sweep = Sweep("three", moving(0.2), (0.2, 0.3, 0.4), conditions)
     assert len(sweep.lanes) * len(conditions) > LANES
-    strides = curve_of(sweep, STRIDE).values(sweep.record({}, 0.01))
+    strides = Curve(sweep, STRIDE).values(sweep.record({}, 0.01))
     assert strides.shape == (3, 3)
     assert np.array_equal(strides[:, 0], strides[:, 2])
     assert (strides[:, 0] != strides[:, 1]).all()
@@ -39,7 +39,7 @@ def test_conditions_are_factors_of_the_scene_and_more_lanes_than_a_block_has():
 
 def test_a_symmetric_robot_makes_the_same_stride_backward():
     strides = [
-        curve_of(sweep, STRIDE).values(sweep.record({}, 0.01))
+        Curve(sweep, STRIDE).values(sweep.record({}, 0.01))
         for sweep in (
             Sweep("three", moving(0.2), (0.2, 0.3)),
             Sweep("back", moving(0.2), (0.2, 0.3), backward=True),
@@ -53,7 +53,7 @@ def test_strides_on_a_belt_are_those_of_a_pass():
     arrangement = {"kind": "belt", "pitch_m": 0.3, "count": 3}
     belt = moving(0.2).with_values({"drive.arrangement": arrangement})
     one, two = (
-        curve_of(sweep, STRIDE).values(sweep.record({}, 0.01))[0, 0]
+        Curve(sweep, STRIDE).values(sweep.record({}, 0.01))[0, 0]
         for sweep in (
             Sweep("one", belt, (0.2,), belt=Passes(0.3, 0, 1)),
             Sweep("two", belt, (0.2,), belt=Passes(0.3, 1, 2)),
@@ -65,7 +65,7 @@ def test_strides_on_a_belt_are_those_of_a_pass():
 
 def test_strides_of_a_sweep_are_those_that_the_page_of_the_paper_measures():
     conditions = tuple({"static_friction": factor} for factor in FRICTIONS)
-    curve_m = curve_of(sweep := Sweep("three", moving(0.2), (0.2,), conditions), STRIDE)
+    curve_m = Curve(sweep := Sweep("three", moving(0.2), (0.2,), conditions), STRIDE)
     stride_m = curve_m.values(sweep.record({}, 0.01)).mean()
     measured = measured_strides([Walk(moving(0.2), 200.0)])
     assert stride_m == pytest.approx(1e-3 * measured.mean_mm.item(), abs=1e-4)

@@ -1,8 +1,9 @@
 """Claims as they stand in a problem file, and the curves that they name."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
-from magworm_gym.identification.claims import Claim, ClaimTable, Curve, claim, curve_of
+from magworm_gym.identification.claims import Claim, ClaimTable, Curve, claim
 from magworm_gym.identification.mistake import ProblemError
 from magworm_gym.identification.quantities import MEASURES, named_quantity
 from magworm_gym.identification.sweep import Sweep
@@ -23,7 +24,9 @@ def read_claim(table: ClaimTable, where: str, sweeps: Mapping[str, Sweep]) -> Cl
     if table.kind == "peaks":
         _check_peak(rows[0][0], low_m_s, high_m_s, where)
     else:
-        *rows, other = ([curve.within(low_m_s, high_m_s) for curve in row] for row in (*rows, other))
+        *rows, other = (
+            [replace(curve, low_m_s=low_m_s, high_m_s=high_m_s) for curve in row] for row in (*rows, other)
+        )
     _check_speeds([curve for row in (*rows, other) for curve in row], where)
     return claim(table, tuple(map(tuple, rows)), tuple(other))
 
@@ -40,7 +43,7 @@ def _named(names: str | list[str] | None, where: str, sweeps: Mapping[str, Sweep
                 f"{where} is {text!r}; allowed: sweep.quantity or sweep.quantity.magnet, of "
                 f"{', '.join(sweeps)} and {', '.join(MEASURES)}"
             )
-        curves += [curve_of(sweep, quantity) for sweep in chosen]
+        curves += [Curve(sweep, quantity) for sweep in chosen]
     return curves
 
 

@@ -1,7 +1,8 @@
 """Claims about curves: what is said of strides over the speed of the drive, in words or numbers."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Literal
 
 import numpy as np
@@ -84,54 +85,43 @@ class ClaimTable(Table, frozen=True):
 
 @dataclass(frozen=True)
 class Curve:
-    """A quantity of a sweep over the speed of the drive.
+    """A quantity of a sweep over a range of speeds of the drive, both ends included.
 
     Attributes:
-        sweep: Name of the sweep.
+        sweep: The sweep.
         quantity: What is measured. A stride is the way against the motion of the drive, on a belt for each
             pass.
-        speeds_m_s: Speeds (S,) [m/s].
-        lanes: Names of the recordings at each speed, one for each condition (S, C).
-        sign: −1 for strides where the drive moves from tail to head, else 1.
-        passes: Passes that a stride is divided by.
+        low_m_s: Least speed of the range [m/s].
+        high_m_s: Greatest speed of the range [m/s].
     """
 
-    sweep: str
+    sweep: Sweep
     quantity: Quantity
-    speeds_m_s: tuple[float, ...]
-    lanes: tuple[tuple[str, ...], ...]
-    sign: float = 1.0
-    passes: int = 1
+    low_m_s: float = 0.0
+    high_m_s: float = np.inf
+
+    @cached_property
+    def places(self) -> list[int]:
+        """Places of its speeds (S) among those of the sweep."""
+        speeds_m_s = self.sweep.speeds_m_s
+        return [at for at, speed in enumerate(speeds_m_s) if self.low_m_s <= speed <= self.high_m_s]
+
+    @property
+    def speeds_m_s(self) -> tuple[float, ...]:
+        """Its speeds (S,) [m/s]."""
+        return tuple(self.sweep.speeds_m_s[at] for at in self.places)
 
     def values(self, recordings: Recordings) -> Floats:
         """The quantity at each speed and condition (S, C), in its unit."""
-        measured = [[self.quantity.measure(recordings[name]) for name in names] for names in self.lanes]
-        return self.sign / self.passes * np.array(measured)
-
-    def within(self, low_m_s: float, high_m_s: float) -> "Curve":
-        """The part of it in a range of speeds, both ends included."""
-        kept = [at for at, speed in enumerate(self.speeds_m_s) if low_m_s <= speed <= high_m_s]
-        return replace(
-            self,
-            speeds_m_s=tuple(self.speeds_m_s[at] for at in kept),
-            lanes=tuple(self.lanes[at] for at in kept),
-        )
+        lanes = [self.sweep.lanes[at] for at in self.places]
+        measured = np.array([[self.quantity.measure(recordings[lane.name]) for lane in row] for row in lanes])
+        if self.quantity.kind != "stride_m":
+            return measured
+        passes = 1 if self.sweep.belt is None else self.sweep.belt.count
+        return np.asarray((-1.0 if self.sweep.backward else 1.0) / passes * measured)
 
     def __str__(self) -> str:
-        return f"{self.sweep}.{self.quantity}"
-
-
-def curve_of(sweep: Sweep, quantity: Quantity) -> Curve:
-    """The curve of a quantity over the speeds of a sweep."""
-    stride = quantity.kind == "stride_m"
-    return Curve(
-        sweep.name,
-        quantity,
-        sweep.speeds_m_s,
-        tuple(tuple(lane.name for lane in lanes) for lanes in sweep.lanes),
-        -1.0 if stride and sweep.backward else 1.0,
-        sweep.belt.count if stride and sweep.belt is not None else 1,
-    )
+        return f"{self.sweep.name}.{self.quantity}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +177,7 @@ def claim(table: ClaimTable, curves: tuple[tuple[Curve, ...], ...], other: tuple
     return Claim(
         name=table.name,
         wanted=f"{about} {said} {span} m/s",
-        sources=frozenset(curve.sweep for row in (*curves, other) for curve in row),
+        sources=frozenset(curve.sweep.name for row in (*curves, other) for curve in row),
         tolerance=table.scale,
         fitted=table.fit,
         band=(table.within or 0.0) / table.scale if kind.exact else 0.0,
