@@ -7,6 +7,7 @@ from studies.kit.study import main
 MODULES = {
     "error": "studies.error.study",
     "growth": "studies.growth.study",
+    "learners": "studies.learners.study",
     "needs": "studies.needs.study",
     "paper": "studies.paper.study",
     "peak": "studies.peak.study",

@@ -1,0 +1,1 @@
+"""Learning algorithms on turning, each for the same processor time."""
