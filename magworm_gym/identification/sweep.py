@@ -99,15 +99,7 @@ class Sweep(Run):
         return sum(self._span_s(self.scene, lane)[1] for lanes in self.lanes for lane in lanes)
 
     def record(self, values: Mapping[str, float], sample_s: float) -> dict[str, Recording]:
-        """Every robot from the beginning to the end of the passes that are measured, by its lane's name.
-
-        Args:
-            values: Path of a field → its value.
-            sample_s: Time between two instants [s].
-
-        Raises:
-            SceneError: The scene cannot be simulated.
-        """
+        """Every robot in the passes that are measured, by its lane's name; see :meth:`Run.record`."""
         scene = self.fitted_scene(values)
         start_m, sign = (scene.body_length_m + self.ahead_m, -1.0) if self.backward else (-self.ahead_m, 1.0)
         motion = {"drive.motion.x_m": start_m, "drive.motion.speed_m_s": sign * self.speeds_m_s[0]}
@@ -130,13 +122,7 @@ class Sweep(Run):
         present = np.ones(scene.magnets, np.bool_)
         present[list(scene.removed)] = False
         return {
-            lane.name: _recording(
-                poses[:, at],
-                present,
-                spans[at],
-                sample_s,
-                int(seen.status[-1, at]),
-            )
+            lane.name: _recording(poses[:, at], present, spans[at], sample_s, int(seen.status[-1, at]))
             for at, lane in enumerate(lanes)
         }
 
