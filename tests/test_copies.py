@@ -10,7 +10,7 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
-from vector_infos import told
+from worms import crawl, out_of_band, play_randomly, told
 
 from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv
 
@@ -18,20 +18,11 @@ OPTIONS = {"removed": [[0], [], [1]], "parameters": {"mass": [1.0, 1.1, 1.2]}, "
 PATIENCE_S = 60
 
 
-def crawl(**kwargs: Any) -> MagWormVectorEnv:
-    return MagWormVectorEnv(3, **{"max_episode_steps": 5, "threads": 1, **kwargs})
-
-
-def play(env: MagWormVectorEnv, steps: int, seed: int) -> list[Any]:
-    rows = np.random.default_rng(seed).uniform(-1, 1, (steps, 3, 3))
-    return [env.step(actions) for actions in rows]
-
-
 def started(**kwargs: Any) -> MagWormVectorEnv:
     env = crawl(**kwargs)
     env.reset(seed=[5, 6, 7], options=OPTIONS)
     env.reset(options={**OPTIONS, "reset_mask": np.array([False, True, False])})
-    play(env, 5, seed=0)
+    play_randomly(env, 5, seed=0)
     return env
 
 
@@ -46,14 +37,6 @@ def by_pickle(env: MagWormVectorEnv) -> MagWormVectorEnv:
     return other
 
 
-def out_of_band(env: Any) -> Any:
-    """As dask and joblib send it: arrays beside the pickle, in memory that nobody may write into."""
-    buffers: list[pickle.PickleBuffer] = []
-    pickled = pickle.dumps(env, protocol=5, buffer_callback=buffers.append)
-    assert buffers
-    return pickle.loads(pickled, buffers=[bytes(buffer.raw()) for buffer in buffers])
-
-
 COPIED = [by_state, by_pickle, out_of_band, deepcopy, copy]
 
 
@@ -62,7 +45,7 @@ COPIED = [by_state, by_pickle, out_of_band, deepcopy, copy]
 def test_a_copy_goes_on_bit_for_bit(copied: Callable[[Any], Any], mode: str) -> None:
     env = started(autoreset_mode=mode)
     other = copied(env)
-    assert data_equivalence(play(env, 12, seed=1), play(other, 12, seed=1), exact=True)
+    assert data_equivalence(play_randomly(env, 12, seed=1), play_randomly(other, 12, seed=1), exact=True)
     assert data_equivalence(env.reset(), other.reset(), exact=True)
 
 
@@ -76,10 +59,10 @@ def test_a_copy_before_the_first_reset(copied: Callable[[Any], Any]) -> None:
 def test_going_back_to_a_state() -> None:
     env = started()
     state = env.get_state()
-    first = play(env, 9, seed=2)
+    first = play_randomly(env, 9, seed=2)
     env.set_state(state)
     assert env.get_state() == state
-    assert data_equivalence(first, play(env, 9, seed=2), exact=True)
+    assert data_equivalence(first, play_randomly(env, 9, seed=2), exact=True)
 
 
 def test_a_copied_specification() -> None:
@@ -153,7 +136,7 @@ def _play_and_send(connection: Any, env: MagWormVectorEnv) -> None:
     fresh = MagWormVectorEnv(64, max_episode_steps=5, threads=2)
     fresh.reset(seed=0)
     fresh.step(np.zeros((64, 3)))
-    connection.send(play(env, 4, seed=3))
+    connection.send(play_randomly(env, 4, seed=3))
 
 
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
@@ -169,7 +152,7 @@ def test_fork_with_a_live_thread_pool() -> None:
     child.start()
     try:
         assert receiver.poll(PATIENCE_S), "the forked process hangs"
-        assert data_equivalence(play(env, 4, seed=3), receiver.recv(), exact=True)
+        assert data_equivalence(play_randomly(env, 4, seed=3), receiver.recv(), exact=True)
         child.join(PATIENCE_S)
         assert child.exitcode == 0
     finally:

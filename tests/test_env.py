@@ -18,14 +18,6 @@ from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv
 UNBOUNDED = pytest.mark.filterwarnings("ignore:.*infinity:UserWarning")
 
 
-@pytest.fixture
-def windowless(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Lets a window open where there is no screen."""
-    pytest.importorskip("PIL")
-    pytest.importorskip("pygame")
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-
-
 @UNBOUNDED
 def test_gymnasium_s_checker_passes() -> None:
     check_env(gymnasium.make(CRAWL_ID).unwrapped, skip_render_check=True)

@@ -154,18 +154,16 @@ def test_outlines_have_their_sizes() -> None:
     assert np.ptp(corners[:, 1]) == pytest.approx(0.4)
 
 
-def test_window_shows_a_frame_without_a_screen(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("pygame")
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+@pytest.mark.usefixtures("windowless")
+def test_window_shows_a_frame_without_a_screen() -> None:
     side_view = view()
     side_view.show(draw(side_view))
     side_view.close()
     side_view.close()
 
 
-def test_windows_live_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("pygame")
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+@pytest.mark.usefixtures("windowless")
+def test_windows_live_side_by_side() -> None:
     first, second = (MagWormVectorEnv(1, threads=1, render_mode="human") for _ in range(2))
     for env in (first, second):
         env.reset(seed=0)

@@ -6,12 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
+from worms import crawl
 
-from magworm_gym import MagWormEnv, MagWormVectorEnv, Scene
-
-
-def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormVectorEnv:
-    return MagWormVectorEnv(num_envs, **{"max_episode_steps": 3, "threads": 1, **kwargs})
+from magworm_gym import MagWormEnv, Scene
 
 
 def test_start_for_all_and_for_each() -> None:

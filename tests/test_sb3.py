@@ -1,6 +1,5 @@
 """The adapter for Stable-Baselines3."""
 
-import pickle
 from copy import copy, deepcopy
 from typing import Any
 
@@ -16,19 +15,13 @@ from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import DummyVecEnv, SubprocVecEnv, VecNormalize
+from worms import out_of_band
 
 import magworm_gym.sb3
 from magworm_gym import MagWormEnv
 from magworm_gym.sb3 import MagWormSB3VecEnv
 
 torch.set_num_threads(1)
-
-
-def out_of_band(env: Any) -> Any:
-    """A pickle with arrays beside it, in memory that nobody may write into."""
-    buffers: list[pickle.PickleBuffer] = []
-    pickled = pickle.dumps(env, protocol=5, buffer_callback=buffers.append)
-    return pickle.loads(pickled, buffers=[bytes(buffer.raw()) for buffer in buffers])
 
 
 def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormSB3VecEnv:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env, data_equivalence
 from gymnasium.vector import AutoresetMode
+from worms import crawl, play_randomly
 
 from magworm_gym import REACH_ID, TURN_ID, MagWormEnv, MagWormVectorEnv, Scene
 from magworm_gym.draws import TASK, uniform
@@ -27,12 +28,7 @@ OBSERVED = MagWormVectorEnv(task="turn", threads=1).batch.observation_specificat
 
 
 def made(task: str, num_envs: int = 3, **kwargs: Any) -> MagWormVectorEnv:
-    return MagWormVectorEnv(num_envs, **{"max_episode_steps": 5, "threads": 1, "task": task, **kwargs})
-
-
-def play(env: MagWormVectorEnv, steps: int, seed: int = 0) -> list[Any]:
-    rows = np.random.default_rng(seed).uniform(-1, 1, (steps, *env.action_space.shape))
-    return [env.step(actions) for actions in rows]
+    return crawl(num_envs, task=task, **kwargs)
 
 
 def seen(x_m: float = 0.0, z_m: float = 0.0, heading_deg: float = 0.0, roll_deg: float = 0.0) -> Any:
@@ -199,13 +195,13 @@ def test_copies_go_on_bit_for_bit(task: str) -> None:
     env = made(task, autoreset_mode="SameStep")
     env.reset(seed=5, options={**GOALS[task], "removed": [1], "parameters": {"mass": [1.0, 1.1, 1.2]}})
     env.reset(options={"reset_mask": np.array([False, True, False]), "start": {"z_m": 0.01, "yaw_deg": 30.0}})
-    play(env, 3)
+    play_randomly(env, 3)
     loaded = made(task, autoreset_mode="SameStep")
     loaded.set_state(env.get_state())
     copies = [loaded, pickle.loads(pickle.dumps(env)), deepcopy(env)]
-    expected = play(env, 12, seed=1)
+    expected = play_randomly(env, 12, seed=1)
     for copy in copies:
-        assert data_equivalence(expected, play(copy, 12, seed=1), exact=True)
+        assert data_equivalence(expected, play_randomly(copy, 12, seed=1), exact=True)
 
 
 def test_a_state_of_another_task_is_refused() -> None:

@@ -9,25 +9,12 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
-from vector_infos import told
+from worms import crawl, play, random_actions, told
 
 from magworm_gym import MagWormEnv, MagWormVectorEnv, Scene, SceneError
 from magworm_gym.spaces import box
 
 MODES = list(AutoresetMode)
-
-
-def crawl(num_envs: int = 3, **kwargs: Any) -> MagWormVectorEnv:
-    return MagWormVectorEnv(num_envs, **{"max_episode_steps": 5, "threads": 1, **kwargs})
-
-
-def random_actions(env: Any, steps: int, seed: int = 0) -> np.ndarray:
-    shape = (steps, *env.action_space.shape)
-    return np.random.default_rng(seed).uniform(-1, 1, shape).astype(np.float32)
-
-
-def returns_of(env: Any, actions: np.ndarray) -> list[tuple[Any, ...]]:
-    return [env.step(rows) for rows in actions]
 
 
 def assert_equal(one: Any, other: Any) -> None:
@@ -209,7 +196,7 @@ def test_frames_follow_each_other_once_a_second_at_least() -> None:
 def test_next_step_ignores_the_action_of_an_ended_episode() -> None:
     env = crawl(max_episode_steps=2)
     env.reset(seed=0)
-    returns_of(env, random_actions(env, 2))
+    play(env, random_actions(env, 2))
     observations, rewards, _, truncated, infos = env.step(np.full((3, 3), np.nan))
     assert not rewards.any() and not truncated.any()
     assert infos["episode_number"].tolist() == [1, 1, 1]
@@ -289,11 +276,11 @@ def test_bad_actions_leave_the_state_untouched(actions: Any) -> None:
     rows = random_actions(env, 5)
     for each in (env, twin):
         each.reset(seed=2)
-        returns_of(each, rows[:2])
+        play(each, rows[:2])
     with pytest.raises(ValueError):
         env.step(actions)
     assert env.get_state() == twin.get_state()
-    for one, other in zip(returns_of(env, rows[2:]), returns_of(twin, rows[2:]), strict=True):
+    for one, other in zip(play(env, rows[2:]), play(twin, rows[2:]), strict=True):
         assert_equal(one, other)
 
 

@@ -108,10 +108,8 @@ def test_frames_of_chosen_environments() -> None:
     env.close()
 
 
-def test_a_window(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("PIL")
-    pytest.importorskip("pygame")
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+@pytest.mark.usefixtures("windowless")
+def test_a_window() -> None:
     env = MagWormVectorEnv(2, render_mode="human", threads=1)
     env.reset(seed=0)
     env.step(np.zeros((2, 3)))
