@@ -3,6 +3,7 @@
 import json
 import os
 import pickle
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -81,6 +82,7 @@ def test_a_training_stopped_at_any_checkpoint_ends_as_another(
 
 
 @pytest.mark.skipif(os.name == "nt", reason="forks")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")  # of a process with idle threads
 @pytest.mark.parametrize("case", ["ppo"])
 def test_a_killed_training_with_the_shipped_settings_ends_as_another(case: str, tmp_path: Path) -> None:
     assert case in CASES
@@ -112,25 +114,26 @@ def _flipped(content: bytes, at: int) -> bytes:
 
 
 @pytest.fixture(scope="module")
-def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The checkpoints of a training."""
-    folder = tmp_path_factory.mktemp("interrupted")
+def through(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A training that came to its end, though nothing says so."""
+    folder = tmp_path_factory.mktemp("through")
     train.main([*settings_of("crawl", PPO, folder), "--out", str(folder / "run")])
-    return folder / "run" / "seed-3" / "checkpoints"
+    (folder / "run" / "seed-3" / "finished.json").unlink()
+    return folder / "run"
 
 
 @pytest.mark.parametrize("damage", damages())
 def test_a_damaged_checkpoint_falls_back_to_the_one_before(
-    damage: str, interrupted: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    damage: str, through: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    before, newest = checkpoints(interrupted)
-    (tmp_path / before.name).write_bytes(before.read_bytes())
-    (tmp_path / newest.name).write_bytes(damages()[damage](newest.read_bytes()))
-    found = newest_checkpoint(tmp_path)
-    assert found is not None and found["progress"]["steps"] == 64
+    out = Path(shutil.copytree(through, tmp_path / "run"))
+    newest = checkpoints(out / "seed-3" / "checkpoints")[-1]
+    newest.write_bytes(damages()[damage](newest.read_bytes()))
+    train.main(["crawl", "--resume", "--out", str(out)])
     said = capsys.readouterr().err
-    assert len(said.splitlines()) == 1 and str(tmp_path / newest.name) in said
-    assert checkpoints(tmp_path) == [tmp_path / before.name]
+    assert len(said.splitlines()) == 1 and str(newest) in said
+    assert json.loads((out / "seed-3" / "finished.json").read_text())["resumed_at_step"] == 64
+    assert last(out) == last(through)
 
 
 def test_twenty_kinds_of_damage_are_tried() -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import torch
 from safetensors import safe_open
 from safetensors.numpy import save
 
@@ -23,7 +24,7 @@ ARRAY, BYTES = "array", "bytes"
 NAME = re.compile(r"(\d{12})-([0-9a-f]{32})\.safetensors")
 
 Tree = dict[str, Any]
-"""Numbers, text, None, arrays, bytes, and lists and dicts of them."""
+"""Numbers, text, None, bytes, arrays, tensors (which are read as arrays), and lists and dicts of them."""
 
 
 def save_checkpoint(folder: Path, steps: int, state: Tree) -> None:
@@ -56,7 +57,7 @@ def newest_checkpoint(folder: Path) -> Tree | None:
         if path.stem.endswith(_checksum(content)):
             return _read(path)
         path.unlink()
-        print(f"{path} is damaged; the training goes on from the checkpoint before it", file=sys.stderr)
+        print(f"{path} is damaged: the training goes on from what was kept before it", file=sys.stderr)
     return None
 
 
@@ -73,8 +74,8 @@ def _checksum(content: bytes) -> str:
 
 def _split(tree: Any, name: str, arrays: dict[str, np.ndarray[Any, Any]]) -> Any:
     """The tree with names in place of its arrays, which are put aside."""
-    if isinstance(tree, np.ndarray):
-        arrays[name] = tree
+    if isinstance(tree, (np.ndarray, torch.Tensor)):
+        arrays[name] = np.asarray(tree)
         return {ARRAY: name}
     if isinstance(tree, bytes):
         arrays[name] = np.frombuffer(tree, np.uint8)

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable
 from typing import NoReturn
 
-from magworm_gym import SceneError
+from magworm_gym import PolicyError, SceneError
 
 MISTAKE = 2
 INTERRUPTED = 130
@@ -44,7 +44,7 @@ def run(program: str, main: Callable[[list[str]], None]) -> NoReturn:
         main(sys.argv[1:])
     except KeyboardInterrupt as interruption:
         message, status = f"stopped; {interruption or 'what was complete is kept'}", INTERRUPTED
-    except (UsageError, SceneError) as mistake:
+    except (UsageError, SceneError, PolicyError) as mistake:
         message, status = str(mistake), MISTAKE
     except ImportError as missing:
         if "pip install" not in str(missing):

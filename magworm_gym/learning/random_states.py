@@ -22,7 +22,7 @@ def random_states() -> dict[str, Any]:
     name, keys, *position = np.random.get_state()
     version, words, gauss = random.getstate()
     return {
-        "torch": torch.get_rng_state().numpy(),
+        "torch": torch.get_rng_state(),
         "numpy": [name, keys, *position],
         "python": [version, list(words), gauss],
     }

@@ -116,9 +116,8 @@ class Sb3Learner(Learner):
         """Model with optimisers, statistics, environments with their episodes, generators, replay buffer."""
         model = self.model
         _, variables = model._get_torch_save_params()
-        state = {
-            "counts": {name: getattr(model, name) for name in COUNTS},
-            "arrays": {name: getattr(model, name) for name in ARRAYS},
+        state: Tree = {
+            "attributes": {name: getattr(model, name) for name in ATTRIBUTES},
             "parameters": model.get_parameters(),
             "variables": {name: getattr(model, name).detach() for name in variables},
             "actions": model.action_space.np_random.bit_generator.state,
@@ -131,18 +130,17 @@ class Sb3Learner(Learner):
             state["returns"] = self.normalisation.returns
         if isinstance(model, OffPolicyAlgorithm):
             state["replay"] = _replay(model.replay_buffer)
-        kept: Tree = _mapped(state, torch.Tensor, lambda tensor: tensor.numpy())
-        return kept
+        return state
 
     def restore(self, state: Tree) -> None:
         """See the base class."""
         model, buffer = self.model, getattr(self.model, "replay_buffer", None)
         self.robots.set_state(state["robots"])
-        for name, value in {**state["counts"], **state["arrays"]}.items():
+        for name, value in state["attributes"].items():
             setattr(model, name, value)
         model.set_parameters({name: _parameters(kept) for name, kept in state["parameters"].items()})
-        for name, value in state["variables"].items():
-            getattr(model, name).data = torch.from_numpy(value)
+        for name, value in _tensors(state["variables"]).items():
+            getattr(model, name).data = value
         model.action_space.np_random.bit_generator.state = state["actions"]
         model.ep_info_buffer = deque(state["episodes"], model._stats_window_size)
         model.ep_success_buffer = deque(state["successes"], model._stats_window_size)
@@ -154,21 +152,11 @@ class Sb3Learner(Learner):
             _restore_replay(buffer, state["replay"])
 
     def _model(self, environments: VecEnv) -> BaseAlgorithm:
-        options = self.options
-        network: dict[str, Any] = {
-            "net_arch": list(options.hidden),
-            "activation_fn": ACTIVATIONS[options.activation],
-        }
-        if options.log_std_init is not None:
-            network["log_std_init"] = options.log_std_init
-        return self.algorithm(
-            "MlpPolicy",
-            environments,
-            learning_rate=lambda _: self._rate(),
-            policy_kwargs=network,
-            device="cpu",
-            **self._arguments(),
-        )
+        activation, log_std = ACTIVATIONS[self.options.activation], self.options.log_std_init
+        network: dict[str, Any] = {"net_arch": list(self.options.hidden), "activation_fn": activation}
+        network |= {} if log_std is None else {"log_std_init": log_std}
+        given = {"policy_kwargs": network, "device": "cpu", **self._arguments()}
+        return self.algorithm("MlpPolicy", environments, learning_rate=lambda _: self._rate(), **given)
 
     def _arguments(self) -> dict[str, Any]:
         """Arguments of the algorithm."""
@@ -184,8 +172,11 @@ class Sb3Learner(Learner):
 
 OWN = ("hidden", "activation", "log_std_init", "normalise", "learning_rate")
 """Settings that are no arguments of an algorithm."""
-COUNTS = ("num_timesteps", "_n_updates", "_episode_num")
-ARRAYS = ("_last_obs", "_last_episode_starts", "_last_original_obs")
+ATTRIBUTES = (
+    *("num_timesteps", "_n_updates", "_episode_num"),
+    *("_last_obs", "_last_episode_starts", "_last_original_obs"),
+)
+"""What of a model changes with time, beside what is kept for itself."""
 
 
 def statistics(normalisation: VecNormalize) -> tuple[RunningMeanStd, RunningMeanStd]:
@@ -225,18 +216,14 @@ def _restore_replay(buffer: Any, kept: Tree) -> None:
 
 def _parameters(kept: Tree) -> Tree:
     """State of a module or an optimiser; JSON has made text of the numbers of an optimiser's parameters."""
-    kept = _mapped(kept, np.ndarray, torch.from_numpy)
+    kept = _tensors(kept)
     if "param_groups" in kept:
         kept["state"] = {int(number): values for number, values in kept["state"].items()}
     return kept
 
 
-def _mapped(tree: Any, kind: type, change: Any) -> Any:
-    """A tree with each value of a kind changed."""
-    if isinstance(tree, kind):
-        return change(tree)
+def _tensors(tree: Any) -> Any:
+    """A tree with tensors in place of arrays."""
     if isinstance(tree, dict):
-        return {key: _mapped(value, kind, change) for key, value in tree.items()}
-    if isinstance(tree, (list, tuple)):
-        return [_mapped(value, kind, change) for value in tree]
-    return tree
+        return {key: _tensors(value) for key, value in tree.items()}
+    return torch.from_numpy(tree) if isinstance(tree, np.ndarray) else tree

@@ -46,7 +46,7 @@ def train_seeds(
         return [train_seed(settings, scenes, seed, folder) for seed, folder in jobs]
     threads = max(1, default_workers() // workers)
     # Not forked: a copy of a process with running threads hangs.
-    context = multiprocessing.get_context("spawn")
+    context, others = multiprocessing.get_context("spawn"), set(multiprocessing.active_children())
     with ProcessPoolExecutor(workers, context, _begin_worker, (modules,)) as pool:
         waiting = [
             pool.submit(train_seed, settings, scenes, seed, folder, alone=False, threads=threads)
@@ -58,7 +58,7 @@ def train_seeds(
             raise UsageError("a process that trained a seed was ended, perhaps for want of memory") from None
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
-            for process in multiprocessing.active_children():
+            for process in set(multiprocessing.active_children()) - others:
                 process.terminate()
 
 
