@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from charged_faces import face_wrench
 
 from magworm_gym.magnet import field, wrench
 
@@ -137,26 +138,6 @@ def test_validates_the_pull_of_touching_magnets(drive_m: Any, body_m: Any, pull_
             np.testing.assert_allclose(torque_n_m, 0.0, atol=1e-9)
 
 
-def charges(body_m: Any, place_m: np.ndarray, turn: np.ndarray, body_t: np.ndarray, drive: Any) -> Any:
-    """Charged faces of the body in magpylib's field of a drive, in 16 panels of 20 points along each edge."""
-    x, weights = np.polynomial.legendre.leggauss(20)
-    panels = (2.0 * np.arange(16) + 1.0) / 16.0 - 1.0
-    x, weights = (panels[:, None] + x / 16.0).ravel(), np.tile(weights / 16.0, 16)
-    force_n, torque_n_m = np.zeros(3), np.zeros(3)
-    for n in range(3):
-        s, t = (n + 1) % 3, (n + 2) % 3
-        for side in (-1.0, 1.0):
-            local = np.zeros((x.size, x.size, 3))
-            local[..., n], local[..., s], local[..., t] = side, x[:, None], x
-            arms = (local * 0.5 * np.asarray(body_m)) @ turn.T
-            area = body_m[s] * body_m[t] / 4.0
-            charge = side * body_t[n] * area * weights[:, None, None] * weights[:, None] / (4e-7 * np.pi)
-            forces = charge * drive.getB(place_m + arms)
-            force_n += forces.sum(axis=(0, 1))
-            torque_n_m += np.cross(arms, forces).sum(axis=(0, 1))
-    return force_n, torque_n_m
-
-
 @pytest.mark.parametrize("gap_m", [1e-4, 1e-3])
 @pytest.mark.parametrize(
     "tilt_rad", [(0.0, 0.0, 0.0), (0.0, 0.05, 0.0), (0.08, 0.03, 0.5)], ids=["flat", "tilted", "turned"]
@@ -170,7 +151,7 @@ def test_validates_near_magnets_against_magpylib(gap_m: float, tilt_rad: Any) ->
     drive = magpylib.magnet.Cuboid(dimension=drive_m, polarization=drive_t)
     height = 0.5 * drive_m[2] + gap_m + np.abs(turn[2]) @ body_m / 2.0
     place_m = np.array([0.0063, -0.0021, height])
-    exact_n, exact_n_m = charges(body_m, place_m, turn, body_t, drive)
+    exact_n, exact_n_m = np.split(face_wrench(drive, np.array(body_m), body_t, place_m, turn, panels=16), 2)
     x, y, z, w = rotation.as_quat()
     force_n, torque_n_m = wrench(
         drive_m, body_m, place_m, (w, x, y, z), drive_magnetisation_t=drive_t, body_magnetisation_t=body_t
@@ -196,32 +177,6 @@ def test_quaternions_of_any_length_are_rotations(length: float) -> None:
     found = wrench(*FLAT, (0.0, 0.0, 0.03), length * axis)
     exact = wrench(*FLAT, (0.0, 0.0, 0.03), axis)
     np.testing.assert_allclose(found, exact, rtol=1e-13, atol=1e-18)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (
-            {"position_m": (0.0, 0.0, 0.0019)},
-            r"position_m is \[.* 0\.0019\] m: .*overlap by 1\.000e-4 m",
-        ),
-        (
-            {"position_m": [(0, 0, 1), (0, 0, 0), (0, 0, 1)]},
-            r"position_m\[1\] is .*overlap.*stand apart",
-        ),
-        ({"position_m": (0, 0, 0), "model": "dipole"}, r"position_m is .*dipoles"),
-        ({"position_m": [(0, 0, 1), (0, 0, 1e-99)], "model": "dipole"}, r"position_m\[1\] is .*dipoles"),
-        (
-            {"position_m": np.full((2, 1, 3), 0.1), "quaternion_wxyz": [(1, 0, 0, 0), (0, 0, 0, 0)]},
-            r"quaternion_wxyz\[0, 1\] is \[0\.0, 0\.0, 0\.0, 0\.0\]; allowed: any rotation",
-        ),
-        ({"quaternion_wxyz": [(1, 0, 0, 0), (np.inf, 0, 0, 0)]}, r"quaternion_wxyz\[1\] is .*finite"),
-    ],
-)
-def test_poses_that_cannot_be_are_named(change: dict[str, Any], message: str) -> None:
-    pose = {"position_m": (0.0, 0.0, 0.03), "quaternion_wxyz": (1.0, 0.0, 0.0, 0.0)}
-    with pytest.raises(ValueError, match=message):
-        wrench(*FLAT, **{**pose, **change})
 
 
 def test_field_broadcasts() -> None:
@@ -264,6 +219,21 @@ def test_dipoles_are_good_far_away_only() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        (
+            {"position_m": (0.0, 0.0, 0.0019)},
+            r"position_m is \[.* 0\.0019\] m: .*overlap by 1\.000e-4 m",
+        ),
+        (
+            {"position_m": [(0, 0, 1), (0, 0, 0), (0, 0, 1)]},
+            r"position_m\[1\] is .*overlap.*stand apart",
+        ),
+        ({"position_m": (0, 0, 0), "model": "dipole"}, r"position_m is .*dipoles"),
+        ({"position_m": [(0, 0, 1), (0, 0, 1e-99)], "model": "dipole"}, r"position_m\[1\] is .*dipoles"),
+        (
+            {"position_m": np.full((2, 1, 3), 0.1), "quaternion_wxyz": [(1, 0, 0, 0), (0, 0, 0, 0)]},
+            r"quaternion_wxyz\[0, 1\] is \[0\.0, 0\.0, 0\.0, 0\.0\]; allowed: any rotation",
+        ),
+        ({"quaternion_wxyz": [(1, 0, 0, 0), (np.inf, 0, 0, 0)]}, r"quaternion_wxyz\[1\] is .*finite"),
         ({"drive_size_m": (0.1, 0.1)}, "drive_size_m"),
         ({"body_size_m": (0.1, 0.1, 0.0)}, "body_size_m"),
         ({"position_m": (0.1, 0.1)}, "position_m.*3"),
@@ -278,8 +248,8 @@ def test_dipoles_are_good_far_away_only() -> None:
 )
 def test_bad_arguments_are_named(change: dict[str, Any], message: str) -> None:
     arguments: dict[str, Any] = {
-        "drive_size_m": (0.04, 0.04, 0.02),
-        "body_size_m": (0.01, 0.01, 0.003),
+        "drive_size_m": FLAT[0],
+        "body_size_m": FLAT[1],
         "position_m": (0.0, 0.0, 0.03),
         "quaternion_wxyz": (1.0, 0.0, 0.0, 0.0),
     }
