@@ -115,7 +115,6 @@ format: need-rust-checks install-test  ## format Rust and Python, mend what ruff
 	$(VENV_PYTHON) -m ruff format .
 
 docs: install-test  ## write tables and numbers of README.md and docs/ that come from the simulator and from docs/results/
-	$(VENV_PYTHON) docs/spaces.py docs/environments.md
 	$(VENV_PYTHON) docs/results.py
 
 clean:  ## remove everything that was built or installed; results in runs/ stay
@@ -155,7 +154,6 @@ test-nightly: need-cargo  ## 100,000 random extreme scenes and rubbers, ten mill
 
 test-docs: need-cargo install-test  ## cargo doc, tables and numbers of README.md and docs/
 	RUSTDOCFLAGS='--deny warnings' cargo doc --no-deps --package magworm
-	$(VENV_PYTHON) docs/spaces.py --check docs/environments.md
 	$(VENV_PYTHON) docs/results.py --check
 
 test-wheel: wheel  ## the wheel in an empty environment: needs numpy and gymnasium only

@@ -2,7 +2,7 @@
 
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 
 BLOCK = re.compile(r"<!-- (?P<name>[^/ ]\S*) -->(?P<line>\n?).*?<!-- /(?P=name) -->", re.DOTALL)
@@ -22,16 +22,6 @@ def fill(text: str, block: Callable[[str], str | None]) -> str:
         return found[0] if new is None else f"<!-- {name} -->{line}{new}{line}<!-- /{name} -->"
 
     return BLOCK.sub(filled, text)
-
-
-def write_or_check(file: Path, blocks: Mapping[str, str], *, check: bool) -> int:
-    """Writes blocks into a file, or with ``check`` only compares; returns the exit status."""
-    text = file.read_text(encoding="utf-8")
-    missing = blocks.keys() - {found["name"] for found in BLOCK.finditer(text)}
-    if missing:
-        print(f"{file}: no lines <!-- {min(missing)} --> and <!-- /{min(missing)} -->", file=sys.stderr)
-        return 1
-    return write_or_compare(file, fill(text, blocks.get), check=check)
 
 
 def write_or_compare(file: Path, fresh: str, *, check: bool) -> int:

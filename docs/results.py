@@ -1,9 +1,10 @@
-"""Fills Markdown files with what commands have found: reports are kept as JSON in ``docs/results/``.
+"""Fills Markdown files with what simulator and tasks declare and with what commands have found.
 
-Between markers on a page stands a table or a paragraph of a report, as between ``<!-- crawl.intact -->`` and
-``<!-- /crawl.intact -->``, or a single number of the list ``docs/results/numbers.toml``, as between
-``<!-- =name -->`` and ``<!-- /=name -->``. Beside a report, ``crawl.json``, lies its
-page, ``crawl.md``::
+Commands leave reports as JSON in ``docs/results/``. Between markers on a page stands a table or a paragraph
+of a report, as between ``<!-- crawl.intact -->`` and ``<!-- /crawl.intact -->``, or a single number of the
+list ``docs/results/numbers.toml``, as between ``<!-- =name -->`` and ``<!-- /=name -->``; between
+``<!-- spaces -->`` and ``<!-- /spaces -->`` stand the tables of observation and action. Beside a report,
+``crawl.json``, lies its page, ``crawl.md``::
 
     python docs/results.py            # writes all of them
     python docs/results.py --check    # fails where one is out of date
@@ -16,6 +17,7 @@ from typing import Any
 
 import msgspec
 from blocks import fill, write_or_compare
+from spaces import tables
 
 from magworm_gym.learning.results import Report, Table, read_report
 
@@ -74,7 +76,7 @@ class Results:
             if name.startswith("="):
                 return self._numbers[name[1:]].text(self._folder)
             if not dot:
-                return None
+                return tables() if name == "spaces" else None
             found = self.reports[report].parts[part]
         except (KeyError, IndexError, OSError):
             raise ValueError(f"<!-- {name} --> is in no report and not in the list of numbers") from None
@@ -84,7 +86,7 @@ class Results:
 def main(arguments: list[str] | None = None, docs: Path = DOCS) -> int:
     """Reads the command line; returns the exit status."""
     parser = argparse.ArgumentParser(
-        description="Fills README and pages with the results kept in docs/results/."
+        description="Fills README and pages with tables of spaces and the results kept in docs/results/."
     )
     parser.add_argument("--check", action="store_true", help="only compare")
     check = parser.parse_args(arguments).check

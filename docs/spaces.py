@@ -1,17 +1,6 @@
-"""Writes the tables of observation and action into a Markdown file, as simulator and tasks declare them.
+"""Tables of observation and action, as simulator and tasks declare them."""
 
-They stand between the lines ``<!-- spaces -->`` and ``<!-- /spaces -->``::
-
-    python docs/spaces.py docs/environments.md           # writes them
-    python docs/spaces.py --check docs/environments.md   # fails where they are out of date
-"""
-
-import argparse
-import sys
 from collections.abc import Iterable
-from pathlib import Path
-
-from blocks import write_or_check
 
 from magworm_gym import CRAWL_ID, REACH_ID, TURN_ID, MagWormVectorEnv, arguments_of
 from magworm_gym.spaces import AnyPart
@@ -88,16 +77,3 @@ def _table(parts: Iterable[AnyPart], start: int = 0) -> list[str]:
         rows.append(f"| {place} | `{part.name}` | {part.unit} | {bounds} | {part.description} |")
         start += part.size
     return rows
-
-
-def main() -> int:
-    """Reads the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(description="Writes the tables of observation and action.")
-    parser.add_argument("file", type=Path)
-    parser.add_argument("--check", action="store_true", help="only compare")
-    flags = parser.parse_args()
-    return write_or_check(flags.file, {"spaces": tables()}, check=flags.check)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -21,9 +21,9 @@ PAGE = """A <!-- =speed -->0<!-- /=speed --> b
 <!-- crawl.table -->
 
 <!-- /crawl.table -->
-<!-- spaces -->
+<!-- words -->
 x
-<!-- /spaces -->
+<!-- /words -->
 """
 
 
@@ -88,3 +88,12 @@ def test_a_block_of_nothing_is_named(
 
 def test_pages_of_this_project_are_up_to_date(program: ModuleType) -> None:
     assert program.main(["--check"]) == 0
+
+
+def test_tables_of_spaces_stand_on_their_page(docs: Path, program: ModuleType) -> None:
+    page = (DOCS / "environments.md").read_text(encoding="utf-8")
+    assert page.count("<!-- spaces -->") == page.count("<!-- /spaces -->") == 1
+    (docs / "environments.md").write_text("<!-- spaces -->\nx\n<!-- /spaces -->\n", encoding="utf-8")
+    assert program.main([], docs) == 0
+    tables = (docs / "environments.md").read_text(encoding="utf-8")
+    assert "| `last_action` |" in tables and tables.strip() in page
