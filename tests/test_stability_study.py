@@ -102,9 +102,7 @@ def test_a_page_is_written_from_results_alone(tmp_path) -> None:
     pair = judge(crossed("rod", (STEP, STIFFNESS))[-2:], accuracy=False)
     swings = [measured(Swing(CLAMPED, "newmark", 1e5, 50.0))]
     starts = judge(short_starts())
-    found = Results(
-        Explicit(5e-8, refusal()), limits(["rod"]), swings, single, pair, starts, untyings(), pairs=[]
-    )
+    found = Results(Explicit(5e-8, refusal()), limits(["rod"]), swings, single, pair, starts, untyings(), [])
     page = text(found)
     assert f"> {refusal()}" in page and "steps of 50 ns" in page
     assert "start.height_m is -0.001 m; allowed" in page

@@ -6,6 +6,7 @@ and the mean of the stored energies at both its ends.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -77,9 +78,7 @@ class Swing:
             "material.damping_time_s": 0.0,
             "material.youngs_modulus_pa": self.stiffness_pa,
             "solver.integrator": self.integrator,
-            "solver.step_s": step_s,
-            "control.step_s": step_s,
-            "control.episode_s": step_s,
+            **dict.fromkeys(("solver.step_s", "control.step_s", "control.episode_s"), step_s),
         }
         return Scene.preset("cantilever").with_values(changes | MOTIONS[self.motion])
 
@@ -96,13 +95,8 @@ def swings() -> list[Swing]:
     Raises:
         RuntimeError: Energy that can be seen grew beyond the band.
     """
-    found = [
-        measured(Swing(motion, integrator, stiffness_pa, step_ms))
-        for motion in MOTIONS
-        for integrator in INTEGRATORS
-        for stiffness_pa in STIFFNESSES_PA
-        for step_ms in STEPS_MS
-    ]
+    every = product(MOTIONS, INTEGRATORS, STIFFNESSES_PA, STEPS_MS)
+    found = [measured(Swing(*each)) for each in every]
     for swing in found:
         if swing.visible > BAND:
             raise RuntimeError(f"energy grew without work done: {swing}")
@@ -144,9 +138,8 @@ def energies_j(record: Recording, swing: Swing) -> tuple[Floats, Floats, float]:
     edges = np.diff(nodes, axis=1)
     lengths = np.linalg.norm(edges, axis=-1)
     rest_m = lengths[0]
-    masses = np.zeros(nodes.shape[1])
-    for side in (slice(None, -1), slice(1, None)):
-        masses[side] += 0.5 * DENSITY_KG_M3 * WIDTH_M * THICKNESS_M * rest_m
+    halves = 0.5 * DENSITY_KG_M3 * WIDTH_M * THICKNESS_M * rest_m
+    masses = np.append(halves, 0.0) + np.append(0.0, halves)
     if swing.motion == CLAMPED:
         masses[:2] = 0.0
     turns = np.diff(np.unwrap(np.arctan2(edges[..., 1], edges[..., 0]), axis=1), axis=1)

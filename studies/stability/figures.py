@@ -23,7 +23,7 @@ def rod_map(outcomes: Sequence[Outcome]) -> Any:
     figure, axes = panels(len(pairs), len(INTEGRATORS), (WIDTH_IN, 5.6), sharey="row")
     for row, pair in zip(axes, pairs, strict=True):
         for place, integrator in zip(row, INTEGRATORS, strict=True):
-            draw(place, pair, [outcome for outcome in outcomes if outcome.case.integrator == integrator])
+            draw(place, "rod", pair, [of for of in outcomes if of.case.integrator == integrator])
             place.set_title(integrator)
         for place in row[1:]:
             place.set_ylabel("")
@@ -36,19 +36,19 @@ def robot_map(outcomes: Sequence[Outcome]) -> Any:
     pairs = CROSSED["robot"]
     figure, axes = panels(2, len(pairs) // 2, (WIDTH_IN, 6.2))
     for place, pair in zip(axes.flat, pairs, strict=True):
-        draw(place, pair, outcomes)
+        draw(place, "robot", pair, outcomes)
     legend_above(figure, axes[0, 0])
     return figure
 
 
-def draw(place: Any, pair: tuple[Axis, Axis], outcomes: Sequence[Outcome]) -> None:
-    """The outcomes of a pair of axes as a map."""
+def draw(place: Any, body: str, pair: tuple[Axis, Axis], outcomes: Sequence[Outcome]) -> None:
+    """The outcomes of a body on a pair of axes as a map."""
     across, up = pair
     for verdict, colour in COLOURS.items():
         place.bar(0, 0, color=colour, label=verdict)
     for outcome in outcomes:
         case = outcome.case
-        if (case.axis, case.second_axis) == (across.title, up.title):
+        if (case.body, case.axis, case.second_axis) == (body, across.title, up.title):
             x, y = across.values.index(case.value), up.values.index(case.second_value or 0.0)
             place.bar(x, 0.94, 0.94, y - 0.47, color=COLOURS[outcome.verdict])
             if outcome.verdict == "stable" and outcome.error >= HIGH:

@@ -6,6 +6,7 @@ by the environment's own factor, which no rule looks at.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -68,11 +69,10 @@ class Limit:
 def limits(names: Sequence[str] = tuple(RODS)) -> list[Limit]:
     """Bisects the largest stable step of rods in the plane and in space."""
     found = []
-    for name in names:
-        for dimensions in (2, 3):
-            scene = rod(name, dimensions)
-            predicted_s, reason = scene.explicit_limit()
-            found.append(Limit(name, dimensions, predicted_s, _bisected(scene, predicted_s), reason))
+    for name, dimensions in product(names, (2, 3)):
+        scene = rod(name, dimensions)
+        predicted_s, reason = scene.explicit_limit()
+        found.append(Limit(name, dimensions, predicted_s, _bisected(scene, predicted_s), reason))
     return found
 
 
@@ -89,10 +89,7 @@ def _bisected(scene: Scene, predicted_s: float) -> float:
         raise RuntimeError(f"no limit between {low_s} s and {high_s} s")
     while high_s - low_s > CLOSE * low_s:
         middle_s = 0.5 * (low_s + high_s)
-        if stays(scene, middle_s):
-            low_s = middle_s
-        else:
-            high_s = middle_s
+        low_s, high_s = (middle_s, high_s) if stays(scene, middle_s) else (low_s, middle_s)
     return low_s
 
 
@@ -105,9 +102,7 @@ def stays(scene: Scene, step_s: float) -> bool:
     """
     changes = {
         "solver.integrator": "explicit",
-        "solver.step_s": step_s,
-        "control.step_s": step_s,
-        "control.episode_s": STEPS * step_s,
+        **dict.fromkeys(("solver.step_s", "control.step_s", "control.episode_s"), step_s),
         "material.youngs_modulus_pa": values_of(scene)["material"]["youngs_modulus_pa"] / SOFTER,
     }
     batch = Batch(scene.with_values(changes), 1, lanes="scalar", threads=1)

@@ -4,7 +4,7 @@ Six minutes on two cores. ``--long`` runs every value in space as well, and ever
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,6 @@ from studies.stability.starts import STARTS
 
 HERE = Path(__file__).parent
 DATA = HERE / "data"
-DIGITS = 4
 
 
 @dataclass(frozen=True)
@@ -38,16 +37,29 @@ class Explicit:
 
 @dataclass(frozen=True)
 class Results:
-    """All that is measured; ``pairs`` only by the long form."""
+    """All that the page is written from: tables, but for the first. Only ``--long`` fills ``pairs``."""
 
     explicit: Explicit
     limits: Sequence[Limit]
     swings: Sequence[Swing]
-    single: Sequence[Outcome]
+    alone: Sequence[Outcome]
     crossed: Sequence[Outcome]
     bent: Sequence[Outcome]
-    untied: Sequence[Untying]
-    pairs: Sequence[Outcome] = ()
+    knots: Sequence[Untying]
+    pairs: Sequence[Outcome]
+
+
+ROWS: dict[str, type[Any]] = {
+    "limits": Limit,
+    "swings": Swing,
+    "alone": Outcome,
+    "crossed": Outcome,
+    "bent": Outcome,
+    "knots": Untying,
+    "postures": Posture,
+    "pairs": Outcome,
+}
+"""Tables, and what their rows are."""
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -58,59 +70,36 @@ def options(parser: argparse.ArgumentParser) -> None:
 def measure(arguments: argparse.Namespace) -> None:
     """Runs limits, energies and all sweeps."""
     said = Stopwatch().said
-    measure_explicit()
-    said("limits")
-    write_rows(DATA / "energy.csv", Swing, swings(), DIGITS)
-    said("energies")
-    axes = [(body, axis, of) for of in findings.WHERE for body in ALONE for axis in ALONE[body]]
-    single = [case for place in axes for case in alone(*place, long=arguments.long)]
-    write_rows(DATA / "alone.csv", Outcome, judge(single), DIGITS)
-    said("alone")
-    both = [case for body, pairs in CROSSED.items() for pair in pairs for case in crossed(body, pair)]
-    write_rows(DATA / "crossed.csv", Outcome, judge(both), DIGITS)
-    said("crossed")
-    write_rows(DATA / "starts.csv", Outcome, judge(bent()), DIGITS)
-    measure_postures()
-    said("bent starts")
-    if arguments.long:
-        write_rows(DATA / "pairs.csv", Outcome, judge(list(every_pair()), accuracy=False), DIGITS)
-        said("pairs")
 
+    def keep(name: str, rows: Iterable[Any], digits: int = 4) -> None:
+        write_rows(DATA / f"{name}.csv", ROWS[name], list(rows), digits)
+        said(name)
 
-def measure_explicit() -> None:
-    """The largest steps of the explicit scheme."""
-    write_rows(DATA / "limits.csv", Limit, limits())
     preset_s, _ = Scene.preset("paper-3").explicit_limit()
     write_json(DATA / "explicit.json", Explicit(preset_s, refusal()))
+    keep("limits", limits(), digits=6)
+    keep("swings", swings())
+    axes = [(body, axis, of) for of in findings.WHERE for body in ALONE for axis in ALONE[body]]
+    keep("alone", judge([case for place in axes for case in alone(*place, long=arguments.long)]))
+    both = [(body, pair) for body, pairs in CROSSED.items() for pair in pairs]
+    keep("crossed", judge([case for place in both for case in crossed(*place)]))
+    keep("bent", judge(bent()))
+    keep("knots", untyings())
+    keep("postures", postures())
+    if arguments.long:
+        keep("pairs", judge(list(every_pair()), accuracy=False))
 
 
-def measure_postures() -> None:
-    """What becomes of the knot and of the starts that are drawn."""
-    write_rows(DATA / "knots.csv", Untying, untyings())
-    write_rows(DATA / "postures.csv", Posture, list(postures()), DIGITS)
-
-
-def results() -> Results:
-    """The data."""
-    outcomes = {path.stem: read_rows(path, Outcome) for path in map(DATA.joinpath, OUTCOMES) if path.exists()}
-    return Results(
-        explicit=read_json(DATA / "explicit.json", Explicit),
-        limits=read_rows(DATA / "limits.csv", Limit),
-        swings=read_rows(DATA / "energy.csv", Swing),
-        single=outcomes["alone"],
-        crossed=outcomes["crossed"],
-        bent=outcomes["starts"],
-        untied=read_rows(DATA / "knots.csv", Untying),
-        pairs=outcomes.get("pairs", ()),
-    )
-
-
-OUTCOMES = ("alone.csv", "crossed.csv", "starts.csv", "pairs.csv")
+def rows(name: str) -> list[Any]:
+    """A table; without rows where it was not measured."""
+    path = DATA / f"{name}.csv"
+    return read_rows(path, ROWS[name]) if path.exists() else []
 
 
 def pages() -> dict[str, str]:
     """The page from the data."""
-    return {"stability.md": text(results())}
+    tables = {name: rows(name) for name in ROWS if name != "postures"}
+    return {"stability.md": text(Results(read_json(DATA / "explicit.json", Explicit), **tables))}
 
 
 def text(of: Results) -> str:
@@ -118,7 +107,7 @@ def text(of: Results) -> str:
     return page(
         HERE / "page.md",
         of=of,
-        every=[*of.single, *of.crossed, *of.bent],
+        every=[*of.alone, *of.crossed, *of.bent],
         energies=list(findings.energies(of.swings)),
         moduli=sorted({swing.stiffness_pa for swing in of.swings}),
         find=findings,
@@ -133,12 +122,12 @@ def text(of: Results) -> str:
 
 def figures() -> dict[str, Any]:
     """The figures from the data."""
-    both = read_rows(DATA / "crossed.csv", Outcome)
-    return {
-        "stability/rod.png": rod_map([outcome for outcome in both if outcome.case.body == "rod"]),
-        "stability/robot.png": robot_map([outcome for outcome in both if outcome.case.body == "robot"]),
-        "stability/starts.png": start_strip(read_rows(DATA / "postures.csv", Posture)),
+    drawn = {
+        "rod": rod_map(rows("crossed")),
+        "robot": robot_map(rows("crossed")),
+        "starts": start_strip(rows("postures")),
     }
+    return {f"stability/{name}.png": figure for name, figure in drawn.items()}
 
 
 STUDY = Study(

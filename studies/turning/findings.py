@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -82,15 +83,10 @@ def left_out(points: Sequence[Point], field: str, unit: str) -> str:
     return "".join(parts)
 
 
-@dataclass(frozen=True)
-class Margin:
+class Margin(NamedTuple):
     """How firmly a robot stands over a drive at one height.
 
-    Attributes:
-        least_deg: Greatest roll that the smallest offset leaves [°].
-        unit_deg: The same of an offset of 1 mm [°].
-        tips: Whether the robot tips over there.
-        first: Between which offsets it first tips over, in words.
+    Greatest rolls at the smallest offset and at 1 mm, whether it tips over there, and where it first does.
     """
 
     least_deg: float
@@ -108,12 +104,10 @@ def margins(passes: Iterable[Tipping]) -> dict[float, dict[int, Margin]]:
     """Margins by the height of the drive [mm] and the magnets of the robot."""
     rolls = {(each.drive.height_mm, each.drive.magnets, each.drive.offset_mm): each.rolls for each in passes}
     found: dict[float, dict[int, Margin]] = {height: {} for height in HEIGHTS_MM}
-    for height, row in found.items():
-        for count in ROBOTS:
-            here = [rolls[height, count, offset] for offset in TIPPING_OFFSETS_MM]
-            least, unit = here[0], rolls[height, count, UNIT_MM]
-            first = first_tipping([each.tipped for each in here])
-            row[count] = Margin(max(least.roll_deg), max(unit.roll_deg), unit.tipped, first)
+    for height, count in product(HEIGHTS_MM, ROBOTS):
+        least, unit = (rolls[height, count, offset] for offset in (TIPPING_OFFSETS_MM[0], UNIT_MM))
+        first = first_tipping([rolls[height, count, offset].tipped for offset in TIPPING_OFFSETS_MM])
+        found[height][count] = Margin(max(least.roll_deg), max(unit.roll_deg), unit.tipped, first)
     return found
 
 

@@ -56,25 +56,19 @@ class Comparison:
 
 def comparisons() -> list[Comparison]:
     """Runs all cases in the plane, in space, and in space with the drive beside the line."""
-    cases = [
-        case
-        for preset in PRESETS
-        for case in (
-            (preset, "lift", _lift(Scene.preset(preset)), RISE_S + HOLD_S),
-            (preset, "pass", one_pass(Scene.preset(preset)), PASS_S),
-        )
-    ]
+    cases = []
+    for preset in PRESETS:
+        scene = Scene.preset(preset)
+        lift = under_middle(scene, [0.0, RISE_S], [LOW_M, PLANE_M])
+        cases += [(preset, "lift", lift, RISE_S + HOLD_S), (preset, "pass", one_pass(scene), PASS_S)]
     cases.append((BELT, "belt", Scene.preset(BELT), BELT_PERIOD_S))
-    scenes = [
-        scene for _, _, flat, _ in cases for scene in (flat, in_space(flat, 0.0), in_space(flat, ASIDE_MM))
-    ]
-    durations = [duration for *_, duration in cases for _ in range(3)]
-    records = record_scenes(scenes, durations, SAMPLE_S, nodes=False)
-    return [
-        comparison
-        for i, (preset, case, _, _) in enumerate(cases)
-        for comparison in _compared(preset, case, *records[3 * i : 3 * i + 3])
-    ]
+    found = []
+    for preset, case, flat, duration_s in cases:
+        scenes = [flat, in_space(flat, 0.0), in_space(flat, ASIDE_MM)]
+        records = record_scenes(scenes, duration_s, SAMPLE_S, nodes=False)
+        for figure in ("lift",) if case == "lift" else ("peak", "stride"):
+            found.append(compared(preset, case, figure, *records))
+    return found
 
 
 def in_space(flat: Scene, aside_mm: float) -> Scene:
@@ -85,24 +79,18 @@ def in_space(flat: Scene, aside_mm: float) -> Scene:
     return flat.with_values({"dimensions": 3, "drive.motion": motion})
 
 
-def _lift(scene: Scene) -> Scene:
-    return under_middle(scene, [0.0, RISE_S], [LOW_M, PLANE_M])
+def compared(
+    preset: str, case: str, figure: str, plane: Recording, space: Recording, aside: Recording
+) -> Comparison:
+    """One figure of the same case in the plane, in space, and in space with the drive aside."""
+    plane_mm, space_mm, aside_mm = (figure_mm(figure, record) for record in (plane, space, aside))
+    rolls = [float(np.abs(rolls_deg(record.magnet_poses[..., 3:])).max()) for record in (space, aside)]
+    away = space.magnet_poses[..., :3] - np.pad(plane.magnet_poses[..., :2], ((0, 0), (0, 0), (0, 1)))
+    apart_mm = MM * float(np.linalg.norm(away, axis=-1).max())
+    return Comparison(preset, case, figure, plane_mm, space_mm, apart_mm, rolls[0], aside_mm, rolls[1])
 
 
-def _compared(
-    preset: str, case: str, plane: Recording, space: Recording, aside: Recording
-) -> list[Comparison]:
-    def one(figure: str) -> Comparison:
-        plane_mm, space_mm, aside_mm = (_figure(figure, record) for record in (plane, space, aside))
-        rolls = [float(np.abs(rolls_deg(record.magnet_poses[..., 3:])).max()) for record in (space, aside)]
-        away = space.magnet_poses[..., :3] - np.pad(plane.magnet_poses[..., :2], ((0, 0), (0, 0), (0, 1)))
-        apart = MM * float(np.linalg.norm(away, axis=-1).max())
-        return Comparison(preset, case, figure, plane_mm, space_mm, apart, rolls[0], aside_mm, rolls[1])
-
-    return [one(figure) for figure in (("lift",) if case == "lift" else ("peak", "stride"))]
-
-
-def _figure(figure: str, record: Recording) -> float:
+def figure_mm(figure: str, record: Recording) -> float:
     """Lift at the end or its peak, of the magnet that rises furthest, or the robot's stride [mm]."""
     if figure == "stride":
         return MM * float(record.progress_m[-1])
