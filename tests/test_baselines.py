@@ -1,6 +1,7 @@
 """Drives that do not learn."""
 
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,7 +9,6 @@ import pytest
 from magworm_gym import Batch, MagWormVectorEnv, Scene
 from magworm_gym.baselines import (
     TOW_AXES,
-    Evolution,
     OpenLoop,
     PeriodicStrokes,
     Runner,
@@ -172,8 +172,8 @@ def test_a_search_without_progress_begins_again_from_the_next_scout() -> None:
         return np.where(np.abs(candidates - 0.5).max(axis=1) == 0.0, 2.0, 1.0)
 
     scouts = np.array([[-0.5, -0.5], [0.5, 0.5]])
-    size = Evolution(population=200, generations=5, sigma=0.01, patience=1)
-    found = search(flat, scouts, size, np.random.default_rng(0))
+    sizes: Any = {"population": 200, "generations": 5, "sigma": 0.01, "patience": 1}
+    found = search(flat, scouts, np.random.default_rng(0), **sizes)
     assert found.score == 2.0 and found.parameters.tolist() == [0.5, 0.5]
     about = [round(float(centre[0]), 1) for centre in centres[1:]]
     assert about == [0.5, -0.5, 0.5, -0.5, 0.5]
@@ -185,8 +185,9 @@ def test_a_search_finds_the_top_of_a_hill() -> None:
     found = search(
         lambda candidates: -np.square(candidates - 0.3).sum(axis=1),
         generator.uniform(-1.0, 1.0, (8, 3)),
-        Evolution(population=12, generations=40),
         generator,
+        population=12,
+        generations=40,
     )
     np.testing.assert_allclose(found.parameters, 0.3, atol=1e-3)
 

@@ -238,7 +238,7 @@ def test_stages_are_kept_by_settings_sources_and_simulator(
     ask(1, "kept")
     ask(2, "other settings")
     ask(1, "other source", Steered)
-    monkeypatch.setattr(module, "simulator_digest", lambda: "another build")
+    monkeypatch.setattr(module, "_magworm", demonstration)  # another build
     ask(1, "other simulator")
     assert calls == ["first", "other settings", "other source", "other simulator"]
     (kept,) = [path for path in tmp_path.iterdir() if '"size": 2' in path.read_text()]
@@ -252,17 +252,17 @@ def test_stages_are_kept_by_settings_sources_and_simulator(
 
 
 def test_what_decides_about_a_source_is_its_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from magworm_gym.learning.compare.stages import source_digest
+    from magworm_gym.learning.compare import stages
 
     monkeypatch.syspath_prepend(str(tmp_path))
     path = tmp_path / "own_rival.py"
     digests = []
     for text in ("class Own: ...\n", "class Own:\n    x = 1\n", "class Own: ...\n"):
         path.write_text(text)
-        source_digest.cache_clear()
+        stages._file_digest.cache_clear()
         import own_rival  # type: ignore[import-not-found]
 
-        digests.append(source_digest(own_rival.Own))
+        digests.append(stages.source_digest(own_rival.Own))
     assert digests[0] == digests[2] != digests[1]
 
 

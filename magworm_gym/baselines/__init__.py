@@ -16,7 +16,7 @@ from magworm_gym.baselines.cycle import Cycle, Steered
 from magworm_gym.baselines.family import FAMILIES, Family
 from magworm_gym.baselines.flight import AIMS, Flight, fly
 from magworm_gym.baselines.runner import Controller, OpenLoop, Runner, record
-from magworm_gym.baselines.search import Evolution, Found, search
+from magworm_gym.baselines.search import Found, search
 from magworm_gym.baselines.searches import CycleSearch, StrokeSearch
 from magworm_gym.baselines.shuttle import SHUTTLE_AXES, Shuttle
 from magworm_gym.baselines.stroke import PeriodicStrokes, Stroke, stroke_from_unit
@@ -34,7 +34,6 @@ __all__ = [
     "Controller",
     "Cycle",
     "CycleSearch",
-    "Evolution",
     "Family",
     "Flight",
     "Found",

@@ -15,23 +15,6 @@ SEED_LIMIT = 2**31
 
 
 @dataclass(frozen=True)
-class Evolution:
-    """How CMA-ES searches.
-
-    Attributes:
-        population: Candidates of a generation.
-        generations: Generations; at least one runs.
-        sigma: Spread of the first generation about where it begins.
-        patience: Generations without progress after which an evolution is given up for another one.
-    """
-
-    population: int = 16
-    generations: int = 10
-    sigma: float = 0.15
-    patience: int = 30
-
-
-@dataclass(frozen=True)
 class Found:
     """What a search found.
 
@@ -49,8 +32,12 @@ class Found:
 def search(
     scores: Callable[[Floats], Floats],
     scouts: Floats,
-    size: Evolution,
     generator: np.random.Generator,
+    *,
+    population: int = 16,
+    generations: int = 10,
+    sigma: float = 0.15,
+    patience: int = 30,
     progress: Callable[[int], None] | None = None,
 ) -> Found:
     """Searches the parameters in [-1, 1] with the greatest score.
@@ -61,8 +48,11 @@ def search(
     Args:
         scores: Scores (C,) of candidates (C, P).
         scouts: Candidates to begin with (S, P).
-        size: How to search.
         generator: Draws the seeds of evolutions.
+        population: Candidates of a generation.
+        generations: Generations; at least one runs.
+        sigma: Spread of the first generation about where it begins.
+        patience: Generations without progress after which an evolution is given up for another one.
         progress: Called after each generation with their number so far.
 
     Raises:
@@ -72,11 +62,11 @@ def search(
     origins = itertools.cycle(scouts[np.argsort(-found, kind="stable")])
     best, best_score = scouts[found.argmax()], float(found.max())
     bests = [best_score]
-    strategy, reached, idle = _strategy(next(origins), size, generator), -np.inf, 0
-    for generation in range(1, max(size.generations, 1) + 1):
-        if strategy.should_stop() or idle >= size.patience:
-            strategy, reached, idle = _strategy(next(origins), size, generator), -np.inf, 0
-        candidates = np.array([strategy.ask() for _ in range(size.population)])
+    strategy, reached, idle = _strategy(next(origins), sigma, population, generator), -np.inf, 0
+    for generation in range(1, max(generations, 1) + 1):
+        if strategy.should_stop() or idle >= patience:
+            strategy, reached, idle = _strategy(next(origins), sigma, population, generator), -np.inf, 0
+        candidates = np.array([strategy.ask() for _ in range(population)])
         found = scores(candidates)
         # Scores of a worm are small, and the tolerances of the library absolute.
         strategy.tell(list(zip(candidates, -1e3 * found, strict=True)))
@@ -90,7 +80,7 @@ def search(
     return Found(best, best_score, np.array(bests))
 
 
-def _strategy(origin: Floats, size: Evolution, generator: np.random.Generator) -> Any:
+def _strategy(origin: Floats, sigma: float, population: int, generator: np.random.Generator) -> Any:
     """A fresh evolution strategy on the box [-1, 1], around an origin."""
     try:
         import cmaes
@@ -98,8 +88,8 @@ def _strategy(origin: Floats, size: Evolution, generator: np.random.Generator) -
         raise ImportError("CMA-ES needs the library cmaes: pip install 'magworm-gym[train]'.") from error
     return cmaes.CMA(
         mean=origin,
-        sigma=size.sigma,
+        sigma=sigma,
         bounds=np.tile([-1.0, 1.0], (len(origin), 1)),
-        population_size=size.population,
+        population_size=population,
         seed=int(generator.integers(SEED_LIMIT)),
     )

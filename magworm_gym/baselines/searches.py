@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from magworm_gym.baselines.cycle import Steered
 from magworm_gym.baselines.family import Family
 from magworm_gym.baselines.flight import AIMS, fly
 from magworm_gym.baselines.runner import Runner
-from magworm_gym.baselines.search import SEED_LIMIT, Evolution, Found, search
+from magworm_gym.baselines.search import SEED_LIMIT, Found, search
 from magworm_gym.baselines.stroke import PeriodicStrokes, stroke_from_unit
 from magworm_gym.baselines.trial import Trial
 from magworm_gym.tasks import Task
@@ -84,7 +85,8 @@ class StrokeSearch:
             return np.asarray(measured.reshape(len(candidates), -1).mean(axis=1))
 
         generations = int((budget_s - self.scouting_s) / self.generation_s + 1e-9)
-        return search(speeds, scouts, Evolution(self.population, generations), generator, progress)
+        sizes: dict[str, Any] = {"population": self.population, "generations": generations}
+        return search(speeds, scouts, generator, **sizes, progress=progress)
 
     def times_s(self, found: Found) -> Floats:
         """Simulated time after the scouts and after each generation (1 + G,) [s]."""
@@ -152,5 +154,5 @@ class CycleSearch:
             scored = np.where(flight.lost, LOST_SCORE, aim.score(flight))
             return np.asarray(scored.reshape(len(candidates), self.starts).mean(axis=1))
 
-        size = Evolution(self.population, self.generations, sigma=0.3)
-        return search(scores, scouts, size, generator)
+        sizes: dict[str, Any] = {"population": self.population, "generations": self.generations}
+        return search(scores, scouts, generator, **sizes, sigma=0.3)

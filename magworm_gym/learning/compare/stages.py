@@ -41,8 +41,8 @@ class Stages:
         Returns:
             The result, as read back from JSON.
         """
-        sources = {made.__name__: source_digest(made) for made in made_by}
-        settings = json.dumps([decided_by, sources, simulator_digest()], sort_keys=True)
+        sources = {made.__name__: source_digest(made) for made in (*made_by, _magworm)}
+        settings = json.dumps([decided_by, sources], sort_keys=True)
         path = self._folder / f"{name}-{hashlib.sha256(settings.encode()).hexdigest()[:12]}.json"
         kept = _read(path)
         if kept is None:
@@ -64,16 +64,14 @@ def _read(path: Path) -> Any:
         return None
 
 
-@functools.cache
 def source_digest(made: Any) -> str:
-    """Digest of the source file of a function, a class or a module."""
-    return hashlib.sha256(Path(inspect.getfile(made)).read_bytes()).hexdigest()
+    """Digest of the file of a function, a class or a module."""
+    return _file_digest(inspect.getfile(made))
 
 
 @functools.cache
-def simulator_digest() -> str:
-    """Digest of the compiled simulator: another build may move robots otherwise."""
-    return hashlib.sha256(Path(_magworm.__file__).read_bytes()).hexdigest()
+def _file_digest(path: str) -> str:
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
 def content_digest(folder: Path) -> str:
