@@ -144,25 +144,25 @@ def test_a_step_of_environments_is_done_or_not(mode: str) -> None:
         each.reset(seed=0)
     for wait_s in generator.uniform(0.0, 0.02, 60):
         actions = generator.uniform(-1, 1, (50, 3))
-        before = env.get_state()
-        twin.step(actions)
-        after = twin.get_state()
-        press_within(wait_s, lambda actions=actions: env.step(actions))
-        assert env.get_state() in (before, after)
-        if env.get_state() == before:
-            env.step(actions)
-        assert env.get_state() == after
+        assert_done_or_not(wait_s, env, twin, lambda each, actions=actions: each.step(actions))
 
 
-def press_within(wait_s: float, call: Callable[[], Any]) -> None:
-    """Makes a call during which, or soon after which, Ctrl-C is pressed."""
+def assert_done_or_not(wait_s: float, env: Any, twin: Any, call: Callable[[Any], Any]) -> None:
+    """Of a call during which, or soon after which, Ctrl-C is pressed; a twin makes it undisturbed."""
+    before = env.get_state()
+    call(twin)
+    after = twin.get_state()
     timer = threading.Timer(wait_s, os.kill, (os.getpid(), signal.SIGINT))
     with suppress(KeyboardInterrupt):
         timer.start()
-        call()
+        call(env)
         timer.join()
         time.sleep(1.0)
     timer.join()
+    assert env.get_state() in (before, after)
+    if env.get_state() == before:
+        call(env)
+    assert env.get_state() == after
 
 
 def test_a_reset_of_environments_is_done_or_not() -> None:
@@ -171,14 +171,7 @@ def test_a_reset_of_environments_is_done_or_not() -> None:
         each.reset(seed=0)
     options = {"parameters": {"mass": 1.1}, "removed": [1], "start": {"x_m": 0.1}}
     for seed, wait_s in enumerate(np.random.default_rng(0).uniform(0.0, 0.05, 20)):
-        before = env.get_state()
-        twin.reset(seed=seed, options=options)
-        after = twin.get_state()
-        press_within(wait_s, lambda seed=seed: env.reset(seed=seed, options=options))
-        assert env.get_state() in (before, after)
-        if env.get_state() == before:
-            env.reset(seed=seed, options=options)
-        assert env.get_state() == after
+        assert_done_or_not(wait_s, env, twin, lambda each, seed=seed: each.reset(seed=seed, options=options))
 
 
 @pytest.mark.parametrize("make", [MagWormEnv, lambda **kw: MagWormSB3VecEnv(2, **kw)], ids=["one", "sb3"])

@@ -7,7 +7,9 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
+import worms
 from gymnasium.utils.env_checker import data_equivalence
+from worms import play_randomly
 
 from magworm_gym import CRAWL_ID, MagWormEnv, MagWormVectorEnv, Randomise, Scene
 from magworm_gym.randomise import VARIED
@@ -17,19 +19,13 @@ BOTH = Randomise(parameters=0.2, removed=0.5)
 
 
 def crawl(num_envs: int = 6, **kwargs: Any) -> MagWormVectorEnv:
-    given = {"scene": "paper-5", "max_episode_steps": 3, "threads": 1, "randomise": BOTH, **kwargs}
-    return MagWormVectorEnv(num_envs, **given)
+    return worms.crawl(num_envs, **{"scene": "paper-5", "max_episode_steps": 3, "randomise": BOTH, **kwargs})
 
 
 def robots(env: MagWormVectorEnv | MagWormEnv) -> list[Any]:
     """The robot of each environment: its factors and its magnets."""
     factors = np.stack([env.batch.parameter(name) for name in VARIED], axis=1)
     return [*zip(factors.tolist(), env.batch.magnets_present().tolist(), strict=True)]
-
-
-def play(env: MagWormVectorEnv, steps: int) -> list[Any]:
-    rows = np.random.default_rng(8).uniform(-1, 1, (steps, *env.action_space.shape))
-    return [env.step(actions)[:4] for actions in rows]
 
 
 def test_robots_are_the_same_in_any_batch_at_any_place() -> None:
@@ -52,7 +48,7 @@ def test_each_episode_draws_anew_and_the_same_from_the_same_seed(mode: Any) -> N
     seen = []
     for _ in range(3):
         seen += robots(env)
-        assert data_equivalence(play(env, 4), play(again, 4), exact=True)
+        assert data_equivalence(play_randomly(env, 4), play_randomly(again, 4), exact=True)
     assert len({str(robot) for robot in seen}) == len(seen)
     env.reset(seed=2)
     assert robots(env) == seen[:6]
@@ -72,14 +68,14 @@ def test_the_single_environment_draws_the_same() -> None:
 def test_states_and_copies_keep_robots_and_what_follows(copied: Any) -> None:
     env = crawl()
     env.reset(seed=0, options={"parameters": {"mass": 1.05}})
-    play(env, 5)
+    play_randomly(env, 5)
     if copied == "state":
         other = crawl()
         other.set_state(env.get_state())
     else:
         other = copied(env)
     assert robots(other) == robots(env)
-    assert data_equivalence(play(env, 9), play(other, 9), exact=True)
+    assert data_equivalence(play_randomly(env, 9), play_randomly(other, 9), exact=True)
     assert robots(other) == robots(env)
 
 
@@ -125,7 +121,7 @@ def test_options_stand_in_place_of_draws_until_the_next_reset() -> None:
         assert (env.batch.parameter("stiffness") == 1.5).all()
         np.testing.assert_array_equal(env.batch.parameter("mass"), drawn.batch.parameter("mass"))
         assert env.batch.magnets_present().sum(axis=1).tolist() == [4, 5, 5, 5, 5, 5]
-        play(env, 4), play(drawn, 4)
+        play_randomly(env, 4), play_randomly(drawn, 4)
     mask = np.array([True, *[False] * 5])
     env.reset(options={"reset_mask": mask})
     assert ((env.batch.parameter("stiffness") == 1.5) == ~mask).all()
@@ -144,7 +140,7 @@ def test_drawing_nothing_changes_nothing() -> None:
     env, plain = crawl(randomise=Randomise()), crawl(randomise=None)
     for each in (env, plain):
         each.reset(seed=1)
-    assert data_equivalence(play(env, 9), play(plain, 9), exact=True)
+    assert data_equivalence(play_randomly(env, 9), play_randomly(plain, 9), exact=True)
     assert env.get_state() == plain.get_state()
 
 
