@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("stable_baselines3")
 pytest.importorskip("matplotlib")
 
-from magworm_gym import MagWormVectorEnv, Scene
+from magworm_gym import MagWormVectorEnv, PolicyError, Scene, load_policy, load_scene
 from magworm_gym.baselines import AIMS, FAMILIES, Cycle, CycleSearch, Flight, Runner, Shuttle, Steered, fly
 from magworm_gym.baselines.cycle import PARK
 from magworm_gym.learning import demonstration
@@ -417,3 +417,14 @@ def test_ctrl_c_says_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     flags = ["crawl", "--budget", "smoke", "--out", str(tmp_path / "run")]
     with pytest.raises(KeyboardInterrupt, match=f"crawl --budget smoke --out {tmp_path}/run"):
         evaluate.main(flags, CONFIGS)
+
+
+def test_a_policy_drives_no_robot_that_it_was_not_trained_for() -> None:
+    pilot = rivals.Pilot(load_policy("crawl-3"))
+    for scene, told in (("paper-4", "size of the environment's observation"), ("turn-3", "observation")):
+        runner = Runner(load_scene(scene), 1)
+        with pytest.raises(PolicyError, match=told):
+            runner.begin([0], pilot)
+    runner = Runner(load_policy("turn").scene, 1, task=Turn())
+    runner.begin([0], rivals.Pilot(load_policy("turn")), goals=np.array([[30.0]]))
+    runner.forward(2)

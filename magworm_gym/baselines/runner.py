@@ -79,6 +79,11 @@ class Runner:
         return self._worms
 
     @property
+    def declarer(self) -> MagWormVectorEnv | Batch:
+        """What says which parts observations and actions have."""
+        return self.batch if self._worms is None else self._worms
+
+    @property
     def observations(self) -> NDArray[np.float32]:
         """What a policy sees now (N, O)."""
         simulated = self.batch.observe()

@@ -81,7 +81,8 @@ class Pilot:
         self._policy = policy
 
     def start(self, worms: Runner) -> None:
-        """Nothing to prepare: a policy has no memory."""
+        """Refuses robots that the policy was not trained for; it has no memory to prepare."""
+        self._policy.check_fit(worms.declarer)
 
     def act(self, worms: Runner) -> NDArray[np.float64]:
         """Actions (N, A) without exploring."""
