@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch
+from magworm_gym.recording import Moment
 
 if TYPE_CHECKING:
     from magworm_gym.render import SideView, SpaceView
@@ -79,12 +80,11 @@ class Drawing:
         self._trails[i].append(nodes_m.mean(axis=0))
         goal = self._task.goal(i)
         beside: dict[str, Any] = {} if goal is None else {"goal": goal}  # only tasks in space have goals
-        return self._views[i].draw(
+        robot = Moment(
             nodes_m,
             self._batch.magnet_poses()[i],
             self._batch.magnets_present()[i],
             self._batch.drive_positions()[i],
             np.array(self._trails[i]),
-            f"{self._batch.time_s()[i]:.2f} s",
-            **beside,
         )
+        return self._views[i].draw(robot, f"{self._batch.time_s()[i]:.2f} s", **beside)

@@ -13,6 +13,26 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class Moment:
+    """One robot at one time, as views draw it. Rows of a scene in space are longer, as those of a batch are.
+
+    Attributes:
+        nodes: Centre line (K, 2), in space (K, 3) [m], head first.
+        magnet_poses: Body magnets (M, 3): x [m], y [m], angle [rad]; in space (M, 7): x, y, z [m] and
+            quaternion w, x, y, z.
+        present: Which body magnets are in place (M,).
+        drive_positions: Centres of the drive magnets (D, 2) [m]; in space (D, 4): x, y, z [m] and yaw [rad].
+        trail: Past places of the body's centre (T, 2), in space (T, 3) [m], oldest first; may be empty.
+    """
+
+    nodes: Floats
+    magnet_poses: Floats
+    present: NDArray[np.bool_]
+    drive_positions: Floats
+    trail: Floats
+
+
+@dataclass(frozen=True)
 class Recording:
     """One robot over time. Rows of a scene in space are longer, as those of a batch are.
 
@@ -46,9 +66,9 @@ class Recording:
         centre_x = self.centre[:, 0]
         return np.asarray(centre_x[0] - centre_x)
 
-    def at(self, instant: int) -> tuple[Floats, Floats, NDArray[np.bool_], Floats, Floats]:
-        """What a view draws: nodes, magnets, which are in place, drives; places of the centre up to then."""
-        return (
+    def at(self, instant: int) -> Moment:
+        """The robot at an instant, with the places of its centre up to then as its trail."""
+        return Moment(
             self.nodes[instant],
             self.magnet_poses[instant],
             self.present,

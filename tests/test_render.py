@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from magworm_gym import MagWormVectorEnv
-from magworm_gym.baselines import Recording
+from magworm_gym.recording import Moment, Recording
 from magworm_gym.render import SideView
 from magworm_gym.render.animation import stacked, write_gif, write_mp4
 from magworm_gym.render.camera import Camera
@@ -47,7 +47,7 @@ def view(**changes: Any) -> SideView:
 
 
 def draw(side_view: SideView, angle: float = 0.0, present: Any = (True, True, True)) -> np.ndarray:
-    return side_view.draw(nodes(), poses(angle), np.array(present), DRIVE, NO_TRAIL)
+    return side_view.draw(Moment(nodes(), poses(angle), np.array(present), DRIVE, NO_TRAIL))
 
 
 def pixel(frame: np.ndarray, x_m: float, y_m: float) -> tuple[int, ...]:
@@ -108,14 +108,16 @@ def test_body_has_its_thickness() -> None:
 
 def test_broken_robot_and_scenes_without_ground_are_drawn() -> None:
     side_view = view(ground=False, incline_deg=12.0)
-    frame = side_view.draw(np.full((28, 2), np.nan), poses(), np.ones(3, bool), DRIVE, NO_TRAIL, "broken")
+    broken = Moment(np.full((28, 2), np.nan), poses(), np.ones(3, bool), DRIVE, NO_TRAIL)
+    frame = side_view.draw(broken, "broken")
     assert frame.shape == (HEIGHT, WIDTH, 3)
 
 
 def test_trail_and_text_leave_marks() -> None:
     plain = draw(view())
     trail = np.stack([np.linspace(0.06, 0.03, 200), np.full(200, 0.02)], axis=1)
-    marked = view().draw(nodes(), poses(), np.ones(3, bool), DRIVE, trail, "1.24 s\n12.3 mm")
+    moment = Moment(nodes(), poses(), np.ones(3, bool), DRIVE, trail)
+    marked = view().draw(moment, "1.24 s\n12.3 mm")
     changed = np.any(plain != marked, axis=2)
     assert changed[:60, :120].any(), "text"
     row = int(HORIZON * HEIGHT - 0.02 * WIDTH / SPAN_M)

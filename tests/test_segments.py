@@ -41,15 +41,18 @@ def test_the_file_of_a_fitted_scene_comments_on_one_segment() -> None:
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_segments_are_drawn(dimensions: int) -> None:
     pytest.importorskip("PIL")
+    from magworm_gym.recording import Moment
     from magworm_gym.render import view_of
 
     scene = SEGMENTS.with_values({"dimensions": dimensions, "body.segment[2].width_m": 0.02})
     batch = Batch(scene, 1)
     frame = view_of(scene, 320, 200).draw(
-        batch.node_positions()[0],
-        batch.magnet_poses()[0],
-        batch.magnets_present()[0],
-        np.zeros((0, 2 if dimensions == 2 else 4)),
-        np.zeros((0, dimensions)),
+        Moment(
+            batch.node_positions()[0],
+            batch.magnet_poses()[0],
+            batch.magnets_present()[0],
+            np.zeros((0, 2 if dimensions == 2 else 4)),
+            np.zeros((0, dimensions)),
+        )
     )
     assert frame.shape == (200, 320, 3)

@@ -1,5 +1,6 @@
 """Scenes in space as Python sees them: shapes, frames, options, crawling, drawing."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -144,9 +145,7 @@ def test_a_lying_robot_shows_its_other_poles(scene: Scene) -> None:
     over[:, 3:] = [0.0, 1.0, 0.0, 0.0]
     counts = []
     for poses in (record.magnet_poses[0], over):
-        frame = render.view_of(scene).draw(
-            record.nodes[0], poses, record.present, record.drive_positions[0], np.zeros((0, 3))
-        )
+        frame = render.view_of(scene).draw(replace(record.at(0), magnet_poses=poses))
         counts.append([(frame[:, :320] == pole).all(axis=2).sum() for pole in (palette.NORTH, palette.SOUTH)])
     # Two outer magnets and one between: seen from below their numbers change places.
     (north, south), (south_over, north_over) = counts

@@ -27,4 +27,4 @@ def film_frames(
     """
     view = view_of(scene, width, height)
     for instant in range(0, len(recording.time_s), every):
-        yield view.draw(*recording.at(instant), f"{recording.time_s[instant]:.2f} s")
+        yield view.draw(recording.at(instant), f"{recording.time_s[instant]:.2f} s")

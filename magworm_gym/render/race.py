@@ -71,4 +71,4 @@ def _from_zero(recording: Recording) -> Recording:
 def _panel(view: SideView, title: str, recording: Recording, instant: int) -> NDArray[np.uint8]:
     time = recording.time_s[instant] - recording.time_s[0]
     way_mm = 1000.0 * recording.progress_m[instant]
-    return view.draw(*recording.at(instant), f"{title}\n{time:5.2f} s   {way_mm:6.1f} mm")
+    return view.draw(recording.at(instant), f"{title}\n{time:5.2f} s   {way_mm:6.1f} mm")

@@ -12,6 +12,8 @@ from magworm_gym.render.palette import EYE, RUBBER, RUBBER_EDGE, RUBBER_LIGHT, T
 
 Floats = NDArray[np.float64]
 
+MAGNET_GEOMETRY = ("magnet_size_m", "magnet_direction", "magnet_offset_m")
+"""Of each body magnet (M, 3), in ``Scene.geometry``."""
 TRAIL_POINTS = 480
 """The last places of a trail that are drawn."""
 TRAIL_PIECES = 12

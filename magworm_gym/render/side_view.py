@@ -5,12 +5,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.recording import Moment
 from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
 from magworm_gym.render.outline import band, half, rectangle, turned
 from magworm_gym.render.palette import LETTER, MAGNET_EDGE, NORTH, REMOVED_EDGE, SOUTH, TICK
-from magworm_gym.render.robot import TRAIL_POINTS, body_length, draw_eyes, draw_rubber, draw_trail
+from magworm_gym.render.robot import (
+    MAGNET_GEOMETRY,
+    TRAIL_POINTS,
+    body_length,
+    draw_eyes,
+    draw_rubber,
+    draw_trail,
+)
 from magworm_gym.render.window import Windowed
 
 Floats = NDArray[np.float64]
@@ -56,10 +64,7 @@ class SideView(Windowed):
     ) -> None:
         self.width, self.height = width, height
         self._thickness = np.asarray(geometry.get("element_thickness_m", geometry["node_thickness_m"]))
-        self._size, self._direction, self._offset = (
-            np.reshape(geometry[name], (-1, 3))[:, :2]
-            for name in ("magnet_size_m", "magnet_direction", "magnet_offset_m")
-        )
+        self._magnets = [np.reshape(geometry[name], (-1, 3))[:, :2] for name in MAGNET_GEOMETRY]
         self._drive_length, self._drive_height = geometry["drive_size_m"]
         self._ground = bool(geometry["ground"])
         self._incline_deg = float(geometry["incline_deg"])
@@ -67,39 +72,27 @@ class SideView(Windowed):
         self._camera: Camera | None = None
 
     def draw(
-        self,
-        nodes: Floats,
-        magnet_poses: Floats,
-        present: NDArray[np.bool_],
-        drive_positions: Floats,
-        trail: Floats,
-        text: str | None = None,
-        drive_lengths: Floats | None = None,
+        self, robot: Moment, text: str | None = None, drive_lengths: Floats | None = None
     ) -> NDArray[np.uint8]:
         """Draws one frame.
 
         Args:
-            nodes: Centre line (K, 2) [m], head first.
-            magnet_poses: Body magnets (M, 3): x [m], y [m], angle [rad].
-            present: Which body magnets are in place (M,).
-            drive_positions: Centres of the drive magnets (D, 2) [m].
-            trail: Past places of the body centre (T, 2) [m], oldest first; may be empty.
+            robot: In the plane.
             text: Written in the upper left corner, lines separated by newlines.
             drive_lengths: Lengths of the drive magnets as seen from the side (D,) [m]; None for the scene's.
 
         Returns:
             A fresh frame (H, W, 3), uint8, red-green-blue.
         """
-        nodes = np.asarray(nodes, dtype=np.float64)
-        camera = self._following(nodes)
+        camera = self._following(robot.nodes)
         canvas = Canvas(self._background)
         if self._ground:
             backdrop.draw_ticks(canvas, camera)
-        drives = np.asarray(drive_positions, dtype=np.float64)
+        drives = robot.drive_positions
         lengths = np.full(len(drives), self._drive_length) if drive_lengths is None else drive_lengths
         self._draw_drives(canvas, camera, drives, lengths)
-        if np.all(np.isfinite(nodes)):
-            self._draw_robot(canvas, camera, nodes, magnet_poses, present, trail)
+        if np.all(np.isfinite(robot.nodes)):
+            self._draw_robot(canvas, camera, robot)
         if text:
             canvas.caption(text)
         if self._incline_deg:
@@ -128,23 +121,15 @@ class SideView(Windowed):
                 canvas.text((column, row - 0.5 * pole_px), "N", pole_px, LETTER, "mm")
                 canvas.text((column, row + 0.5 * pole_px), "S", pole_px, LETTER, "mm")
 
-    def _draw_robot(
-        self,
-        canvas: Canvas,
-        camera: Camera,
-        nodes: Floats,
-        poses: Floats,
-        present: NDArray[np.bool_],
-        trail: Floats,
-    ) -> None:
-        line, thickness = camera.pixels(nodes), self._thickness * camera.pixels_per_m
-        path = camera.pixels(np.reshape(trail, (-1, 2))[-TRAIL_POINTS:])
+    def _draw_robot(self, canvas: Canvas, camera: Camera, robot: Moment) -> None:
+        line, thickness = camera.pixels(robot.nodes), self._thickness * camera.pixels_per_m
+        path = camera.pixels(np.reshape(robot.trail, (-1, 2))[-TRAIL_POINTS:])
         with canvas.region([band(line, thickness), path]) as region:
             draw_trail(region, path)
             draw_rubber(region, line, thickness, light=0.45)
             draw_eyes(region, line, thickness[0], [(0.17, 0.2)], radius=0.065)
-            magnets = zip(poses, present, self._offset, self._size, self._direction, strict=True)
-            for pose, there, offset, size, direction in magnets:
+            magnets = zip(robot.magnet_poses, robot.present, *self._magnets, strict=True)
+            for pose, there, size, direction, offset in magnets:
                 axes = turned(pose[2])
                 corners = camera.pixels(rectangle(pose[:2] + offset @ axes, axes, size))
                 _draw_magnet(region, corners, direction @ axes if there else None)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magworm_gym.recording import Moment
 from magworm_gym.render.animation import SEPARATOR_PX, joined
 from magworm_gym.render.outline import rotations
 from magworm_gym.render.robot import body_length
@@ -46,38 +47,21 @@ class SpaceView(Windowed):
         self._side_width = width - top_width - SEPARATOR_PX
         self._side: SideView | None = None
 
-    def draw(
-        self,
-        nodes: Floats,
-        magnet_poses: Floats,
-        present: NDArray[np.bool_],
-        drive_positions: Floats,
-        trail: Floats,
-        text: str | None = None,
-        goal: Goal | None = None,
-    ) -> NDArray[np.uint8]:
+    def draw(self, robot: Moment, text: str | None = None, goal: Goal | None = None) -> NDArray[np.uint8]:
         """Draws one frame.
 
         Args:
-            nodes: Centre line (K, 3) [m], head first.
-            magnet_poses: Body magnets (M, 7): x, y, z [m] and quaternion w, x, y, z.
-            present: Which body magnets are in place (M,).
-            drive_positions: Drive magnets (D, 4): x, y, z [m] and yaw [rad].
-            trail: Past places of the body centre (T, 3) [m], oldest first; may be empty.
+            robot: In space.
             text: Written in the upper left corner, lines separated by newlines.
             goal: Where the robot is to go or to look.
 
         Returns:
             A fresh frame (H, W, 3), uint8, red-green-blue.
         """
-        nodes = np.asarray(nodes, dtype=np.float64)
-        top = self._top.draw(nodes, magnet_poses, present, drive_positions, trail, text, goal)
-        side = self._draw_side(nodes, magnet_poses, present, drive_positions)
-        return joined([top, side], 1)
+        return joined([self._top.draw(robot, text, goal), self._draw_side(robot)], 1)
 
-    def _draw_side(
-        self, nodes: Floats, poses: Floats, present: NDArray[np.bool_], drives: Floats
-    ) -> NDArray[np.uint8]:
+    def _draw_side(self, robot: Moment) -> NDArray[np.uint8]:
+        nodes, drives = robot.nodes, robot.drive_positions
         if self._side is None:
             span_m = SIDE_SPAN_BODY_LENGTHS * body_length(nodes)
             self._side = SideView(
@@ -94,15 +78,9 @@ class SpaceView(Windowed):
         turned = drives[:, 3] - np.arctan2(-along[1], along[0])
         size = np.array([self._geometry["drive_size_m"][0], self._geometry["drive_width_m"]])
         seen = np.abs(np.stack([np.cos(turned), np.sin(turned)], axis=1)) @ size
-        return self._side.draw(
-            flat(nodes),
-            np.column_stack([flat(poses), _angles(poses, along)]),
-            present,
-            flat(drives),
-            np.zeros((0, 2)),
-            "side",
-            drive_lengths=seen,
-        )
+        poses = np.column_stack([flat(robot.magnet_poses), _angles(robot.magnet_poses, along)])
+        shadow = Moment(flat(nodes), poses, robot.present, flat(drives), np.zeros((0, 2)))
+        return self._side.draw(shadow, "side", drive_lengths=seen)
 
 
 def _angles(poses: Floats, along: Floats) -> Floats:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from magworm_gym.recording import Moment
 from magworm_gym.render.backdrop import label
 from magworm_gym.render.camera import FOLLOWED_SHARE
 from magworm_gym.render.canvas import Canvas, Region
@@ -26,7 +27,14 @@ from magworm_gym.render.palette import (
     TICK,
     mix,
 )
-from magworm_gym.render.robot import TRAIL_POINTS, body_length, draw_eyes, draw_rubber, draw_trail
+from magworm_gym.render.robot import (
+    MAGNET_GEOMETRY,
+    TRAIL_POINTS,
+    body_length,
+    draw_eyes,
+    draw_rubber,
+    draw_trail,
+)
 from magworm_gym.render.side_view import SPAN_BODY_LENGTHS
 
 if TYPE_CHECKING:
@@ -54,39 +62,27 @@ class TopView:
         self.width, self.height = width, height
         self._width = np.asarray(geometry["element_width_m"])
         self._thickness = float(np.mean(geometry["element_thickness_m"]))
-        self._size, self._direction, self._offset = (
-            np.reshape(geometry[name], (-1, 3))
-            for name in ("magnet_size_m", "magnet_direction", "magnet_offset_m")
-        )
+        self._magnets = [np.reshape(geometry[name], (-1, 3)) for name in MAGNET_GEOMETRY]
         self._drive_size = np.array([geometry["drive_size_m"][0], geometry["drive_width_m"]])
         self._background = Image.new("RGB", (width, height), PLATE_ABOVE)
         self._pixels_per_m = 0.0
         self._centre = np.zeros(2)
 
-    def draw(
-        self,
-        nodes: Floats,
-        magnet_poses: Floats,
-        present: NDArray[np.bool_],
-        drive_positions: Floats,
-        trail: Floats,
-        text: str | None = None,
-        goal: Goal | None = None,
-    ) -> NDArray[np.uint8]:
+    def draw(self, robot: Moment, text: str | None = None, goal: Goal | None = None) -> NDArray[np.uint8]:
         """Draws one frame; arguments as of ``SpaceView.draw``."""
         canvas = Canvas(self._background)
-        line = nodes[:, [0, 2]]
+        line = robot.nodes[:, [0, 2]]
         if np.all(np.isfinite(line)):
             self._follow(line)
             self._draw_grid(canvas)
-            path = self._pixels(np.reshape(trail, (-1, 3))[-TRAIL_POINTS:][:, [0, 2]])
+            path = self._pixels(np.reshape(robot.trail, (-1, 3))[-TRAIL_POINTS:][:, [0, 2]])
             with canvas.region() as region:
-                for x, _, z, yaw in drive_positions.tolist():
+                for x, _, z, yaw in robot.drive_positions.tolist():
                     self._draw_drive(region, np.array([x, z]), yaw)
                 if goal is not None:
                     self._draw_goal(region, goal, line)
                 draw_trail(region, path)
-                self._draw_robot(region, line, magnet_poses, present)
+                self._draw_robot(region, robot)
         if text:
             canvas.caption(text)
         return canvas.frame()
@@ -151,13 +147,13 @@ class TopView:
             head = np.stack([tip, tip - 14.0 * ahead + 6.0 * aside, tip - 14.0 * ahead - 6.0 * aside])
             region.polygon(head, GOAL)
 
-    def _draw_robot(self, region: Region, line: Floats, poses: Floats, present: NDArray[np.bool_]) -> None:
-        pixels, axes = self._pixels(line), rotations(poses[:, 3:])
+    def _draw_robot(self, region: Region, robot: Moment) -> None:
+        pixels, axes = self._pixels(robot.nodes[:, [0, 2]]), rotations(robot.magnet_poses[:, 3:])
         width = self._seen_width(axes) * self._pixels_per_m
         draw_rubber(region, pixels, width, light=0.6)
         draw_eyes(region, pixels, width[0], [(0.16, -0.26), (0.16, 0.26)], radius=0.05)
-        magnets = zip(poses, present, axes, self._offset, self._size, self._direction, strict=True)
-        for pose, there, turn, offset, size, direction in magnets:
+        magnets = zip(robot.magnet_poses, robot.present, axes, *self._magnets, strict=True)
+        for pose, there, turn, size, direction, offset in magnets:
             centre = (pose[:3] + turn @ offset)[[0, 2]]
             corners = self._pixels(rectangle(centre, turn[[0, 2]][:, [0, 2]].T, size[[0, 2]]))
             _draw_magnet(region, corners, turn @ direction if there else None)

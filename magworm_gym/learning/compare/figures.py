@@ -191,15 +191,7 @@ def _film(contest: GoalContest, compared: Compared) -> Iterator[NDArray[np.uint8
     view = SpaceView(contest.scene.geometry, 800, 400)
     for at, time_s in enumerate(recording.time_s):
         still = f"{MM_PER_M * left[at]:.1f} mm" if goal.heading_rad is None else f"{left[at]:.1f}°"
-        yield view.draw(
-            recording.nodes[at],
-            recording.magnet_poses[at],
-            recording.present,
-            recording.drive_positions[at],
-            recording.centre[: at + 1],
-            f"{time_s:.2f} s, {still} left",
-            goal,
-        )
+        yield view.draw(recording.at(at), f"{time_s:.2f} s, {still} left", goal)
 
 
 def _legend_above(axes: Any, columns: int) -> None:
