@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 # Seeds of environments follow each other, so those of two trainings must lie far apart.
 SEED_STRIDE = 1_000_003
-OWN = ("num_envs", "task", "threads", "autoreset_mode", "render_mode", "render_envs")
+OWN = ("environment_id", "num_envs", "task", "threads", "autoreset_mode", "render_mode", "render_envs")
 """Arguments of an environment that a training sets, or that mean nothing to it."""
 
 Made = TypeVar("Made")

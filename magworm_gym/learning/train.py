@@ -3,8 +3,9 @@
 import argparse
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib import import_module
+from itertools import count, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -38,8 +39,7 @@ def main(arguments: list[str], configs: Path | None = None) -> None:
         module, _, given = (getattr(flags, name) or "").rpartition(":")
         if module:
             setattr(flags, name, given)
-            modules.append(module)
-            _import(module)
+            modules.append(_imported(module))
     out = Path(flags.out or f"runs/{flags.environment.rpartition('/')[2]}")
     settings = _resumed_settings(flags, out) if flags.resume else _new_settings(flags, configs)
     if not flags.resume and (out / SETTINGS).exists():
@@ -49,6 +49,8 @@ def main(arguments: list[str], configs: Path | None = None) -> None:
     try:
         summaries = train(settings, out, flags.workers, modules)
     except KeyboardInterrupt:
+        if not (out / SETTINGS).exists():
+            raise
         words = [Path(sys.executable).name, sys.argv[0], *arguments, *["--resume"] * (not flags.resume)]
         raise KeyboardInterrupt(f"this goes on from the newest checkpoint: {shlex.join(words)}") from None
     for summary in summaries:
@@ -90,16 +92,21 @@ def train(
     with owned(out):
         if not texts:
             texts = [scene.to_toml() for scene in scenes]
-            for number, text in enumerate(texts):
-                write_text(out / (f"scene_{number:03d}.toml" if number else SCENE), text)
+            for path, text in zip(_scene_files(out), texts, strict=False):
+                write_text(path, text)
             write_json(out / SETTINGS, settings.to_json())
         return train_seeds(settings, texts, out, workers or default_workers(), modules)
 
 
 def _kept_scenes(out: Path) -> list[str]:
     """The scenes that a run has kept, in TOML: a preset may change meanwhile."""
-    begun = (out / SETTINGS).exists()  # they are written last
-    return [path.read_text("utf-8") for path in sorted(out.glob("scene*.toml"))] if begun else []
+    files = takewhile(Path.exists, _scene_files(out)) if (out / SETTINGS).exists() else ()
+    return [path.read_text("utf-8") for path in files]
+
+
+def _scene_files(out: Path) -> Iterator[Path]:
+    """Where a run keeps its first scene, its second, and so on."""
+    return (out / (f"scene_{number:03d}.toml" if number else SCENE) for number in count())
 
 
 def _new_settings(flags: argparse.Namespace, configs: Path | None) -> TrainingSettings:
@@ -128,20 +135,17 @@ def _identifier(flags: argparse.Namespace) -> str:
 
 def _changes(flags: argparse.Namespace) -> dict[str, Any]:
     """What the flags change in the settings."""
-    names = ["algorithm", "num_envs", "steps", "seeds", "checkpoint_steps"]
-    changes = {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
-    randomise = {"removed": flags.removed, "parameters": flags.parameters}
-    environment = {
-        "scene": flags.scene,
-        "randomise": {name: value for name, value in randomise.items() if value is not None} or None,
-    }
-    given = {name: value for name, value in environment.items() if value is not None}
-    return {**changes, **({"environment": given} if given else {})}
+    names = ["algorithm", "num_envs", "steps", "seeds", "checkpoint_steps", "scene", "removed", "parameters"]
+    given = {name: getattr(flags, name) for name in names if getattr(flags, name) is not None}
+    randomise = {name: given.pop(name) for name in ("removed", "parameters") if name in given}
+    environment = {"scene": given.pop("scene")} if "scene" in given else {}
+    environment |= {"randomise": randomise} if randomise else {}
+    return given | ({"environment": environment} if environment else {})
 
 
-def _import(module: str) -> None:
+def _imported(module: str) -> str:
     try:
-        import_module(module)
+        return import_module(module).__name__
     except ImportError as error:
         raise UsageError(f"module {module!r} cannot be imported: {error}") from None
 
