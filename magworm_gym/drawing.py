@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ HEIGHT_PX = 360
 
 
 class Drawing:
-    """Views of chosen environments, each with the trail of its episode and in space with its goal.
+    """Views of chosen environments, each with the trail of its episode and its goal.
 
     A trail holds the places of the body's centre at the times that were drawn.
 
@@ -78,8 +78,6 @@ class Drawing:
     def _draw(self, i: int) -> Frame:
         nodes_m = self._batch.node_positions()[i]
         self._trails[i].append(nodes_m.mean(axis=0))
-        goal = self._task.goal(i)
-        beside: dict[str, Any] = {} if goal is None else {"goal": goal}  # only tasks in space have goals
         robot = Moment(
             nodes_m,
             self._batch.magnet_poses()[i],
@@ -87,4 +85,4 @@ class Drawing:
             self._batch.drive_positions()[i],
             np.array(self._trails[i]),
         )
-        return self._views[i].draw(robot, f"{self._batch.time_s()[i]:.2f} s", **beside)
+        return self._views[i].draw(robot, f"{self._batch.time_s()[i]:.2f} s", self._task.goal(i))

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,9 @@ from magworm_gym.render import SideView
 from magworm_gym.render.animation import stacked, write_gif, write_mp4
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.outline import band, rectangle, refinement_matrix, turned
-from magworm_gym.render.palette import NORTH, RUBBER, RUBBER_LIGHT, SOUTH
+from magworm_gym.render.palette import GOAL, NORTH, RUBBER, RUBBER_LIGHT, SOUTH
 from magworm_gym.render.race import race_frames
+from magworm_gym.tasks import Crawl, Goal
 
 WIDTH, HEIGHT, SPAN_M, HORIZON = 640, 360, 0.16, 0.4
 GEOMETRY: dict[str, Any] = {
@@ -154,6 +156,23 @@ def test_outlines_have_their_sizes() -> None:
     assert corners.mean(axis=0) == pytest.approx((1.0, 2.0))
     assert np.ptp(corners[:, 0]) == pytest.approx(0.3)
     assert np.ptp(corners[:, 1]) == pytest.approx(0.4)
+
+
+@dataclass
+class There(Crawl):
+    """Crawls to a point."""
+
+    def goal(self, i: int) -> Goal:
+        return Goal(point_m=(-0.02, 0.0))
+
+
+def test_a_goal_in_the_plane_is_a_post() -> None:
+    env = MagWormVectorEnv(1, task=There(), threads=1, render_mode="rgb_array")
+    env.reset(seed=0)
+    frames = env.render()
+    assert frames is not None
+    rows, columns = np.nonzero((frames[0] == GOAL).all(axis=2))
+    assert np.ptp(columns) <= 2 and np.ptp(rows) >= 20 and columns.mean() < 320
 
 
 @pytest.mark.usefixtures("windowless")

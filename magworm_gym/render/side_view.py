@@ -1,6 +1,8 @@
 """The side view of one environment: robot, drive magnets, ground and trail."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +12,7 @@ from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
 from magworm_gym.render.outline import band, half, rectangle, turned
-from magworm_gym.render.palette import LETTER, MAGNET_EDGE, NORTH, REMOVED_EDGE, SOUTH, TICK
+from magworm_gym.render.palette import GOAL, LETTER, MAGNET_EDGE, NORTH, REMOVED_EDGE, SOUTH, TICK
 from magworm_gym.render.robot import (
     MAGNET_GEOMETRY,
     TRAIL_POINTS,
@@ -21,11 +23,15 @@ from magworm_gym.render.robot import (
 )
 from magworm_gym.render.window import Windowed
 
+if TYPE_CHECKING:
+    from magworm_gym.tasks import Goal
+
 Floats = NDArray[np.float64]
 
 SPAN_BODY_LENGTHS = 3.4
 HORIZON = 0.32
 SMALLEST_LETTER_PX = 8.0
+POST_PX = 60.0
 UPWARD = np.array([0.0, 1.0])
 
 
@@ -72,13 +78,18 @@ class SideView(Windowed):
         self._camera: Camera | None = None
 
     def draw(
-        self, robot: Moment, text: str | None = None, drive_lengths: Floats | None = None
+        self,
+        robot: Moment,
+        text: str | None = None,
+        goal: Goal | None = None,
+        drive_lengths: Floats | None = None,
     ) -> NDArray[np.uint8]:
         """Draws one frame.
 
         Args:
             robot: In the plane.
             text: Written in the upper left corner, lines separated by newlines.
+            goal: Where the robot is to go: a post at its x; the plane has no headings.
             drive_lengths: Lengths of the drive magnets as seen from the side (D,) [m]; None for the scene's.
 
         Returns:
@@ -88,6 +99,9 @@ class SideView(Windowed):
         canvas = Canvas(self._background)
         if self._ground:
             backdrop.draw_ticks(canvas, camera)
+        if goal is not None and goal.point_m is not None:
+            column = camera.column(goal.point_m[0])
+            canvas.box(column - 1.0, camera.ground_px - POST_PX, column + 1.0, camera.ground_px, GOAL)
         drives = robot.drive_positions
         lengths = np.full(len(drives), self._drive_length) if drive_lengths is None else drive_lengths
         self._draw_drives(canvas, camera, drives, lengths)
