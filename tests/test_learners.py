@@ -13,7 +13,7 @@ from studies.__main__ import MODULES
 from studies.kit.data import read_rows
 from studies.kit.study import main
 from studies.learners import runs, study
-from studies.learners.runs import SETTINGS, Run, installed, settings_of, train
+from studies.learners.runs import ALGORITHMS, Run, installed, settings_of, train
 
 
 def test_training_and_measuring_leave_a_row(tmp_path, monkeypatch, capsys) -> None:
@@ -28,7 +28,7 @@ def test_training_and_measuring_leave_a_row(tmp_path, monkeypatch, capsys) -> No
     assert "not installed: SAC, TQC and CrossQ." in " ".join(study.text([found]).split())
 
 
-@pytest.mark.parametrize("algorithm", SETTINGS)
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_settings_are_those_of_a_learner(algorithm) -> None:
     if not installed(algorithm):
         pytest.skip("needs sb3-contrib")

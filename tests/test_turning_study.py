@@ -12,7 +12,7 @@ from magworm_gym import Recording, Scene, record_scenes
 from studies.kit.data import read_rows, write_rows
 from studies.kit.passes import MM, PASS_S, one_pass
 from studies.turning.figures import per_pass
-from studies.turning.findings import first_tipping, left_out, margins, shortened
+from studies.turning.findings import first_tipping, inside, left_out, margins, moved, shortened
 from studies.turning.passes import Drive, Outcome, Rolls, Tipping, outcome_of, outcomes, rolls_deg
 from studies.turning.plane import PRESETS, Comparison, comparisons
 from studies.turning.points import Point, Spread, averaged, points
@@ -142,10 +142,15 @@ def test_a_figure_marks_points_without_a_mean() -> None:
 
 
 def test_shorter_steps_are_set_beside_the_longest() -> None:
-    (row, *_) = shortened(made()["step"])
-    assert [each.measure for each in row] == ["turn_deg", "side_mm", "stride_mm"]
-    stride = row[2]
-    assert len(stride.spreads) == 3 and stride.inside and stride.moved == pytest.approx(0.01)
+    found = shortened(made()["step"])
+    assert all([point.drive.step_ms for point in here] == [2.0, 1.0, 0.5] for here in found.values())
+    assert moved(found, "stride_mm") == pytest.approx(0.01) and moved(found, "turn_deg") == 0.0
+    # Of a drive on the line the stride alone counts.
+    assert inside(found) == [True] * (3 * len(found) - 2)
+    apart = {
+        place: [here[0], replace(here[-1], stride_mm=Spread(9.0, 9.0, 9.0))] for place, here in found.items()
+    }
+    assert inside(apart).count(False) == len(found)
 
 
 def test_a_pass_on_the_line_turns_nothing_and_mirrored_passes_turn_oppositely() -> None:

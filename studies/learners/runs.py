@@ -18,15 +18,13 @@ from magworm_gym.learning.sb3 import Sb3Learner
 from magworm_gym.learning.settings import TrainingSettings, checked, merged, read_toml
 from magworm_gym.learning.training import new_learner, place_of
 
-ENVIRONMENT = "MagWorm/Turn-v1"
-EPISODE_STEPS = 300
-GAMMA = 0.98
 GOALS_DEG = np.array([30.0, -30.0, 90.0, -90.0])
 STARTS = 4
 MEASURE_S = 10.0
 LAST = 0.1
 """Part of the time at whose end exploration is measured."""
 SETTINGS = read_toml(Path(__file__).parent / "settings.toml")
+ALGORITHMS = [name for name in SETTINGS if name != "default"]
 CONTRIBUTED = ("TQC", "CrossQ")
 
 
@@ -83,12 +81,7 @@ def settings_of(algorithm: str) -> TrainingSettings:
     """The settings of an algorithm; its learner is known from then on."""
     if algorithm in CONTRIBUTED:
         importlib.import_module("studies.learners.contributed")
-    every = {
-        "environment_id": ENVIRONMENT,
-        "environment": {"max_episode_steps": EPISODE_STEPS},
-        "learner": {"gamma": GAMMA},
-    }
-    return checked(merged(every, SETTINGS[algorithm]), TrainingSettings)
+    return checked(merged(SETTINGS["default"], SETTINGS[algorithm]), TrainingSettings)
 
 
 def run(algorithm: str, seed: int, seconds: float) -> Run:

@@ -8,7 +8,7 @@ from studies.kit.data import read_rows, write_rows
 from studies.kit.page import page
 from studies.kit.study import Study
 from studies.kit.timing import Stopwatch
-from studies.learners.runs import ENVIRONMENT, MEASURE_S, SETTINGS, STARTS, Run, installed, run
+from studies.learners.runs import ALGORITHMS, MEASURE_S, SETTINGS, STARTS, Run, installed, run
 
 HERE = Path(__file__).parent
 RUNS = HERE / "data" / "runs.csv"
@@ -19,7 +19,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--seconds", type=float, default=60.0, help="processor time of each training (default: %(default)s)")
     add("--seeds", type=int, nargs="+", default=[0, 1], help="seeds of each (default: 0 1)")
-    add("--algorithms", nargs="+", choices=[*SETTINGS], default=[*SETTINGS], help="default: all")
+    add("--algorithms", nargs="+", choices=ALGORITHMS, default=ALGORITHMS, help="default: all")
 
 
 def measure(arguments: argparse.Namespace) -> None:
@@ -39,12 +39,12 @@ def pages() -> dict[str, str]:
 
 def text(runs: Sequence[Run]) -> str:
     """The page."""
-    missing = [name for name in SETTINGS if name not in {run.algorithm for run in runs}]
+    missing = [name for name in ALGORITHMS if name not in {run.algorithm for run in runs}]
     return page(
         HERE / "page.md",
         runs=runs,
         missing=missing,
-        environment=ENVIRONMENT,
+        environment=SETTINGS["default"]["environment_id"],
         starts=STARTS,
         measure_s=MEASURE_S,
     )

@@ -2,8 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import groupby
 
 from studies.kit.page import table
 from studies.kit.words import exponent, number, plain
@@ -74,36 +72,10 @@ def sentences(outcomes: Iterable[Outcome]) -> Iterator[str]:
     yield from (f"Broken: {sentence}." for sentence in broken)
 
 
-@dataclass(frozen=True)
-class Energies:
-    """What became of the energy of rods of all stiffnesses, over weight times length.
-
-    Attributes:
-        motion: How they move.
-        integrator: Which scheme.
-        step_ms: Its step [ms].
-        visible: Most that motion and height gained.
-        gain: Most that was gained with what springs hold.
-        lost: Least and most that is missing at the end.
-    """
-
-    motion: str
-    integrator: str
-    step_ms: float
-    visible: float
-    gain: float
-    lost: tuple[float, float]
-
-
-def energies(swings: Sequence[Swing]) -> Iterator[Energies]:
-    """Swings that ran, together for all stiffnesses."""
-
-    def place(swing: Swing) -> tuple[str, str, float]:
-        return swing.motion, swing.integrator, swing.step_ms
-
-    known = [swing for swing in swings if swing.gain == swing.gain]
-    order = list(dict.fromkeys(place(swing)[:2] for swing in known))
-    for key, group in groupby(sorted(known, key=lambda s: (order.index(place(s)[:2]), s.step_ms)), place):
-        same = list(group)
-        visible, gain = (max(0.0, *(getattr(s, name) for s in same)) for name in ("visible", "gain"))
-        yield Energies(*key, visible, gain, (min(s.lost for s in same), max(s.lost for s in same)))
+def energies(swings: Iterable[Swing]) -> dict[tuple[str, str, float], list[Swing]]:
+    """Swings that ran, those of all stiffnesses together, by motion, scheme and step [ms]."""
+    found: dict[tuple[str, str, float], list[Swing]] = {}
+    for swing in swings:
+        if swing.gain == swing.gain:
+            found.setdefault((swing.motion, swing.integrator, swing.step_ms), []).append(swing)
+    return found

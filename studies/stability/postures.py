@@ -56,9 +56,9 @@ class Posture:
         start: How it was bent.
         time_ms: When [ms].
         magnets: Elements that magnets fill.
-        x_mm: Places of the nodes (N,) [mm].
-        y_mm: The same, upwards.
-        z_mm: The same, towards who looks from the side; 0 in the plane.
+        x_mm: Places of the nodes (N,) from head to tail [mm].
+        y_mm: The same upwards.
+        z_mm: The same to the left; 0 in the plane.
     """
 
     body: str

@@ -108,7 +108,6 @@ def text(of: Results) -> str:
         HERE / "page.md",
         of=of,
         every=[*of.alone, *of.crossed, *of.bent],
-        energies=list(findings.energies(of.swings)),
         moduli=sorted({swing.stiffness_pa for swing in of.swings}),
         find=findings,
         cases=cases,

@@ -1,7 +1,6 @@
 """What the page asks of the results."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise, product
 from typing import NamedTuple
 
@@ -9,7 +8,7 @@ import numpy as np
 
 from studies.kit.words import listed, number, plain
 from studies.turning.passes import Tipping
-from studies.turning.points import Point, Spread
+from studies.turning.points import Point
 from studies.turning.sweeps import HEIGHTS_MM, ROBOTS, TIPPING_OFFSETS_MM, UNIT_MM
 
 AMPLIFIED = 2.0
@@ -124,36 +123,27 @@ def first_tipping(tipped: Sequence[bool]) -> str:
     return f"{low:g} to {TIPPING_OFFSETS_MM[first]:g} mm"
 
 
-@dataclass(frozen=True)
-class Shortened:
-    """One mean of one pass with ever shorter steps."""
-
-    magnets: int
-    offset_mm: float
-    measure: str
-    spreads: list[Spread]
-
-    @property
-    def moved(self) -> float:
-        """How far a shorter step moves it at most; not a number where nothing is kept."""
-        return float(np.nanmax([abs(spread.mean - self.spreads[0].mean) for spread in self.spreads[1:]]))
-
-    @property
-    def inside(self) -> bool:
-        """Whether with the shortest step it lies among the neighbours with the longest."""
-        return self.spreads[0].low <= self.spreads[-1].mean <= self.spreads[0].high
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether it is 0 because nothing distinguishes left from right."""
-        return self.offset_mm == 0.0 and self.measure != "stride_mm"
+def shortened(points: Sequence[Point]) -> dict[tuple[int, float], list[Point]]:
+    """Points of each robot and offset [mm] from the longest step to the shortest."""
+    places = dict.fromkeys((point.drive.magnets, point.drive.offset_mm) for point in points)
+    return {place: sorted(of(points, *place), key=lambda point: -point.drive.step_ms) for place in places}
 
 
-def shortened(points: Sequence[Point]) -> Iterator[list[Shortened]]:
-    """For each pass its means, each from the longest step to the shortest."""
-    for count, offset in dict.fromkeys((point.drive.magnets, point.drive.offset_mm) for point in points):
-        here = sorted(of(points, count, offset), key=lambda point: -point.drive.step_ms)
-        yield [
-            Shortened(count, offset, measure, [getattr(point, measure) for point in here])
-            for measure in MEASURES
-        ]
+def moved(found: Mapping[tuple[int, float], Sequence[Point]], measure: str) -> float:
+    """How far a shorter step moves a mean at most."""
+    means = np.array([[getattr(point, measure).mean for point in here] for here in found.values()])
+    return float(np.nanmax(np.abs(means - means[:, :1])))
+
+
+def inside(found: Mapping[tuple[int, float], Sequence[Point]]) -> list[bool]:
+    """Whether means with the shortest step lie among the neighbours with the longest.
+
+    Those that are 0 because nothing distinguishes left from right are left out.
+    """
+    ends = [
+        (getattr(here[0], measure), getattr(here[-1], measure))
+        for (_, offset_mm), here in found.items()
+        for measure in MEASURES
+        if offset_mm or measure == "stride_mm"
+    ]
+    return [longest.low <= shortest.mean <= longest.high for longest, shortest in ends]

@@ -60,7 +60,7 @@ def text(
         HERE / "page.md",
         sweeps=points_of,
         margins=findings.margins(single),
-        shortened=list(findings.shortened(points_of["step"])),
+        shortened=findings.shortened(points_of["step"]),
         plane=plane,
         find=findings,
         robots=ROBOTS,
