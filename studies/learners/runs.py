@@ -30,29 +30,17 @@ CONTRIBUTED = ("TQC", "CrossQ")
 
 @dataclass(frozen=True)
 class Run:
-    """One training.
+    """One training."""
 
-    Attributes:
-        algorithm: A name in the settings.
-        seed: Its seed.
-        seconds: Processor time of the training [s].
-        environments: Environments in the batch.
-        steps: Environment steps of all of them.
-        exploring_deg_s: Mean reward a second in the last tenth of the time, exploration included [°/s].
-        turned_deg: How far the mean action came towards its goals, mean of all [°].
-        turned_share: The same over the size of the goal.
-        lost: Part of the episodes in which the robot tipped over or broke.
-    """
-
-    algorithm: str
+    algorithm: str  # a name in the settings
     seed: int
-    seconds: float
-    environments: int
-    steps: int
-    exploring_deg_s: float
-    turned_deg: float
-    turned_share: float
-    lost: float
+    seconds: float  # processor time of the training [s]
+    environments: int  # environments in the batch
+    steps: int  # environment steps of all of them
+    exploring_deg_s: float  # mean reward a second in the last tenth of the time, exploration included [°/s]
+    turned_deg: float  # how far the mean action came towards its goals, mean of all [°]
+    turned_share: float  # the same over the size of the goal
+    lost: float  # part of the episodes in which the robot tipped over or broke
 
 
 class MeanAction:

@@ -42,23 +42,14 @@ def base_scene(body: str, dimensions: int) -> Scene:
 
 @dataclass(frozen=True, kw_only=True)
 class Axis:
-    """What is varied.
+    """What is varied."""
 
-    Attributes:
-        name: In the field's words.
-        unit: Unit of the values; empty for numbers without one.
-        bodies: Keys of BASES that it is swept for.
-        fields: The fields of a scene that change.
-        values: From one end of the range to the other.
-        scale: What a value is multiplied by for the fields.
-    """
-
-    name: str
-    unit: str = ""
-    bodies: tuple[str, ...]
-    fields: tuple[str, ...]
-    values: tuple[float, ...]
-    scale: float = 1.0
+    name: str  # in the field's words
+    unit: str = ""  # unit of the values; empty for numbers without one
+    bodies: tuple[str, ...]  # keys of BASES that it is swept for
+    fields: tuple[str, ...]  # the fields of a scene that change
+    values: tuple[float, ...]  # from one end of the range to the other
+    scale: float = 1.0  # what a value is multiplied by for the fields
 
     @property
     def title(self) -> str:

@@ -34,27 +34,16 @@ VERDICTS = ("accurate", "stable", "refused", "broken")
 
 @dataclass(frozen=True)
 class Case:
-    """A scene of a sweep.
+    """A scene of a sweep."""
 
-    Attributes:
-        body: Rod or robot.
-        dimensions: 2 or 3.
-        integrator: Which scheme.
-        axis: Title of the axis that is set.
-        value: Its value.
-        second_axis: Title of another that is set; empty where there is none.
-        second_value: Its value.
-        start: How the body is bent at the start; empty where it is straight.
-    """
-
-    body: str
-    dimensions: int
-    integrator: str
-    axis: str
-    value: float
-    second_axis: str = ""
-    second_value: float | None = None
-    start: str = ""
+    body: str  # rod or robot
+    dimensions: int  # 2 or 3
+    integrator: str  # which scheme
+    axis: str  # title of the axis that is set
+    value: float  # its value
+    second_axis: str = ""  # title of another that is set; empty where there is none
+    second_value: float | None = None  # its value
+    start: str = ""  # how the body is bent at the start; empty where it is straight
 
     def scene(self, finer: int = 1) -> Scene:
         """The scene.
@@ -93,20 +82,12 @@ class Case:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a case.
-
-    Attributes:
-        case: The case.
-        verdict: One of VERDICTS.
-        error: Greatest distance from the run with the shorter step over the body's length; not a number
-            where there is none.
-        sentence: Why it was refused or broke; empty otherwise.
-    """
+    """What became of a case. Its error is not a number where there is no shorter step to compare with."""
 
     case: Case
-    verdict: str
-    error: float
-    sentence: str = ""
+    verdict: str  # one of VERDICTS
+    error: float  # greatest distance from the run with a shorter step, over the body's length
+    sentence: str = ""  # why it was refused or broke; empty otherwise
 
 
 def alone(body: str, axis: Axis, dimensions: int, *, long: bool = False) -> list[Case]:
@@ -167,36 +148,36 @@ def judge(cases: Sequence[Case], *, accuracy: bool = True) -> list[Outcome]:
     Raises:
         RuntimeError: A number that is not finite left the simulator, whatever the case's status.
     """
-    plain, refusals = _runs(cases, 1)
-    finer, _ = _runs(cases if accuracy else [], FINER)
-    return [
-        Outcome(case, "refused", np.nan, refusals[i])
-        if i in refusals
-        else _outcome(case, plain[i], finer.get(i))
-        for i, case in enumerate(cases)
-    ]
+    plain = _runs(cases, 1)
+    finer = _runs(cases, FINER) if accuracy else [""] * len(cases)
+    return [_outcome(*each) for each in zip(cases, plain, finer, strict=True)]
 
 
-def _runs(cases: Sequence[Case], finer: int) -> tuple[dict[int, Recording], dict[int, str]]:
-    """Recordings of the cases that run, and the sentences of those that are refused, by their place."""
-    scenes, refusals = {}, {}
-    for i, case in enumerate(cases):
-        try:
-            scenes[i] = case.scene(finer)
-        except SceneError as error:
-            refusals[i] = str(error)
-    durations = [cases[i].duration_s for i in scenes]
-    found = record_scenes(list(scenes.values()), durations, SAMPLE_S)
-    for i, record in zip(scenes, found, strict=True):
+def _runs(cases: Sequence[Case], finer: int) -> list[Recording | str]:
+    """Recordings of the cases that run, and the sentences of those that are refused."""
+    made = [_made(case, finer) for case in cases]
+    run = [(scene, case) for scene, case in zip(made, cases, strict=True) if isinstance(scene, Scene)]
+    records = record_scenes([scene for scene, _ in run], [case.duration_s for _, case in run], SAMPLE_S)
+    for record, (_, case) in zip(records, run, strict=True):
         if not (np.isfinite(record.nodes).all() and np.isfinite(record.magnet_poses).all()):
-            raise RuntimeError(f"a number that is not finite left the simulator: {cases[i]}")
-    return dict(zip(scenes, found, strict=True)), refusals
+            raise RuntimeError(f"a number that is not finite left the simulator: {case}")
+    left = iter(records)
+    return [next(left) if isinstance(scene, Scene) else scene for scene in made]
 
 
-def _outcome(case: Case, plain: Recording, finer: Recording | None) -> Outcome:
+def _made(case: Case, finer: int) -> Scene | str:
+    try:
+        return case.scene(finer)
+    except SceneError as error:
+        return str(error)
+
+
+def _outcome(case: Case, plain: Recording | str, finer: Recording | str) -> Outcome:
+    if isinstance(plain, str):
+        return Outcome(case, "refused", np.nan, plain)
     if plain.broken is not None:
         return Outcome(case, "broken", np.nan, plain.broken)
-    if finer is None or finer.broken is not None or case.shortest:
+    if isinstance(finer, str) or finer.broken is not None or case.shortest:
         return Outcome(case, "stable", np.nan)
     apart_m = np.linalg.norm(plain.nodes - finer.nodes, axis=-1).max()
     rest_m = np.linalg.norm(np.diff(plain.nodes[0], axis=0), axis=-1).sum()

@@ -43,28 +43,16 @@ BAND = 0.02
 
 @dataclass(frozen=True)
 class Swing:
-    """An undamped rod.
+    """An undamped rod. Its energies are not numbers where the scene is refused."""
 
-    Attributes:
-        motion: A key of MOTIONS.
-        integrator: Which scheme.
-        stiffness_pa: Young's modulus [Pa].
-        step_ms: Step [ms].
-        gain: Most that the energy exceeded its start, over weight times length; not a number where the
-            scene is refused.
-        visible: The same of kinetic energy and height alone, without what springs hold.
-        lost: Energy at the start less that at the end, over weight times length.
-        broken: Why it broke down; none where it did not.
-    """
-
-    motion: str
-    integrator: str
-    stiffness_pa: float
-    step_ms: float
-    gain: float = np.nan
-    visible: float = np.nan
-    lost: float = np.nan
-    broken: str | None = None
+    motion: str  # a key of MOTIONS
+    integrator: str  # which scheme
+    stiffness_pa: float  # Young's modulus [Pa]
+    step_ms: float  # step [ms]
+    gain: float = np.nan  # most that the energy exceeded its start, over weight times length
+    visible: float = np.nan  # the same of kinetic energy and height alone, without what springs hold
+    lost: float = np.nan  # energy at the start less that at the end, over weight times length
+    broken: str | None = None  # why it broke down; none where it did not
 
     def scene(self) -> Scene:
         """The scene.

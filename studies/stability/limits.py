@@ -44,21 +44,13 @@ forces on each other fold so soft a rod, with any step."""
 
 @dataclass(frozen=True)
 class Limit:
-    """A rod's largest stable step.
+    """A rod's largest stable step."""
 
-    Attributes:
-        name: Which rod.
-        dimensions: 2 or 3.
-        predicted_s: What the simulator says [s].
-        found_s: What bisection found [s].
-        reason: What limits it, in the simulator's words.
-    """
-
-    name: str
-    dimensions: int
-    predicted_s: float
-    found_s: float
-    reason: str
+    name: str  # which rod
+    dimensions: int  # 2 or 3
+    predicted_s: float  # what the simulator says [s]
+    found_s: float  # what bisection found [s]
+    reason: str  # what limits it, in the simulator's words
 
     @property
     def ratio(self) -> float:

@@ -34,40 +34,24 @@ TREFOIL = 3
 
 @dataclass(frozen=True)
 class Untying:
-    """How long a knotted rod stays so.
+    """How long a knotted rod stays so."""
 
-    Attributes:
-        case: Its scheme and step.
-        until_s: When it was last a trefoil [s].
-        at_end: Determinant of its line at the end; 1 where it is none.
-    """
-
-    case: Case
-    until_s: float
-    at_end: int
+    case: Case  # its scheme and step
+    until_s: float  # when it was last a trefoil [s]
+    at_end: int  # determinant of its line at the end; 1 where it is none
 
 
 @dataclass(frozen=True)
 class Posture:
-    """A bent start at some time.
+    """A bent start at some time."""
 
-    Attributes:
-        body: Rod or robot.
-        start: How it was bent.
-        time_ms: When [ms].
-        magnets: Elements that magnets fill.
-        x_mm: Places of the nodes (N,) from head to tail [mm].
-        y_mm: The same upwards.
-        z_mm: The same to the left; 0 in the plane.
-    """
-
-    body: str
-    start: str
-    time_ms: float
-    magnets: tuple[int, ...]
-    x_mm: Numbers
-    y_mm: Numbers
-    z_mm: Numbers
+    body: str  # rod or robot
+    start: str  # how it was bent
+    time_ms: float  # when [ms]
+    magnets: tuple[int, ...]  # elements that magnets fill
+    x_mm: Numbers  # places of the nodes (N,) from head to tail [mm]
+    y_mm: Numbers  # the same upwards
+    z_mm: Numbers  # the same to the left; 0 in the plane
 
 
 def untyings() -> list[Untying]:

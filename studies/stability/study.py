@@ -4,7 +4,7 @@ Six minutes on two cores. ``--long`` runs every value in space as well, and ever
 """
 
 import argparse
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -35,20 +35,6 @@ class Explicit:
     refusal: str
 
 
-@dataclass(frozen=True)
-class Results:
-    """All that the page is written from: tables, but for the first. Only ``--long`` fills ``pairs``."""
-
-    explicit: Explicit
-    limits: Sequence[Limit]
-    swings: Sequence[Swing]
-    alone: Sequence[Outcome]
-    crossed: Sequence[Outcome]
-    bent: Sequence[Outcome]
-    knots: Sequence[Untying]
-    pairs: Sequence[Outcome]
-
-
 ROWS: dict[str, type[Any]] = {
     "limits": Limit,
     "swings": Swing,
@@ -59,7 +45,7 @@ ROWS: dict[str, type[Any]] = {
     "postures": Posture,
     "pairs": Outcome,
 }
-"""Tables, and what their rows are."""
+"""Tables, and what their rows are; only ``--long`` fills the last."""
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -98,17 +84,18 @@ def rows(name: str) -> list[Any]:
 
 def pages() -> dict[str, str]:
     """The page from the data."""
-    tables = {name: rows(name) for name in ROWS if name != "postures"}
-    return {"stability.md": text(Results(read_json(DATA / "explicit.json", Explicit), **tables))}
+    explicit = read_json(DATA / "explicit.json", Explicit)
+    return {"stability.md": text(explicit, {name: rows(name) for name in ROWS})}
 
 
-def text(of: Results) -> str:
-    """The page."""
+def text(explicit: Explicit, tables: Mapping[str, Sequence[Any]]) -> str:
+    """The page, from tables named as in ROWS."""
     return page(
         HERE / "page.md",
-        of=of,
-        every=[*of.alone, *of.crossed, *of.bent],
-        moduli=sorted({swing.stiffness_pa for swing in of.swings}),
+        explicit=explicit,
+        of=tables,
+        every=[*tables["alone"], *tables["crossed"], *tables["bent"]],
+        moduli=sorted({swing.stiffness_pa for swing in tables["swings"]}),
         find=findings,
         cases=cases,
         axes=ALONE,

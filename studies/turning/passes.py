@@ -27,25 +27,15 @@ SAMPLE_S = 0.01
 
 @dataclass(frozen=True)
 class Drive:
-    """A pass: the robot and how the drive magnet goes by.
+    """A pass: the robot and how the drive magnet goes by."""
 
-    Attributes:
-        magnets: Magnets of the robot.
-        offset_mm: Offset of the drive along z [mm].
-        yaw_deg: Yaw of the drive [°].
-        height_mm: Height of the drive [mm].
-        speed_mm_s: Its speed along x [mm/s].
-        step_ms: Step of the solver [ms].
-        friction: Coefficient at rest and in motion; none for the preset's, which falls as a foot slides.
-    """
-
-    magnets: int
-    offset_mm: float = 0.0
-    yaw_deg: float = 0.0
-    height_mm: float = -22.0
-    speed_mm_s: float = 100.0
-    step_ms: float = 2.0
-    friction: float | None = None
+    magnets: int  # magnets of the robot
+    offset_mm: float = 0.0  # offset of the drive along z [mm]
+    yaw_deg: float = 0.0  # yaw of the drive [°]
+    height_mm: float = -22.0  # height of the drive [mm]
+    speed_mm_s: float = 100.0  # its speed along x [mm/s]
+    step_ms: float = 2.0  # step of the solver [ms]
+    friction: float | None = None  # none for the preset's, which falls as a foot begins to slide
 
     def scene(self) -> Scene:
         """The preset with as many magnets, in space, under this drive."""
@@ -64,15 +54,10 @@ class Drive:
 
 @dataclass(frozen=True)
 class Rolls:
-    """How far feet rolled about their own length.
+    """How far feet rolled about their own length."""
 
-    Attributes:
-        roll_deg: Greatest roll of each foot during the pass, from the head on [°].
-        end_roll_deg: Greatest roll of any foot at its end [°].
-    """
-
-    roll_deg: tuple[float, ...]
-    end_roll_deg: float
+    roll_deg: tuple[float, ...]  # greatest roll of each foot during the pass, from the head on [°]
+    end_roll_deg: float  # greatest roll of any foot at its end [°]
 
     @property
     def tipped(self) -> bool:
@@ -87,19 +72,12 @@ class Rolls:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one pass did.
+    """What one pass did."""
 
-    Attributes:
-        turn_deg: Turn of the line from head to tail magnet [°].
-        side_mm: Way of the centre along +z [mm].
-        stride_mm: Way of the centre along −x [mm].
-        rolls: How far the feet rolled.
-    """
-
-    turn_deg: float
-    side_mm: float
-    stride_mm: float
-    rolls: Rolls
+    turn_deg: float  # turn of the line from head to tail magnet [°]
+    side_mm: float  # way of the centre along +z [mm]
+    stride_mm: float  # way of the centre along −x [mm]
+    rolls: Rolls  # how far the feet rolled
 
     @property
     def carried(self) -> bool:

@@ -19,29 +19,17 @@ WITHIN = 0.01
 
 @dataclass(frozen=True)
 class Comparison:
-    """One figure of one preset in the plane and in space.
+    """One figure of one preset in the plane and in space."""
 
-    Attributes:
-        preset: Its name.
-        case: "lift", "pass" or "belt".
-        figure: "lift", "peak" or "stride".
-        plane_mm: In the plane [mm].
-        space_mm: In space, drive on the line [mm].
-        apart_mm: Greatest distance of a magnet from its planar place at any time [mm].
-        roll_deg: Greatest roll of any foot at any time, drive on the line [°].
-        aside_mm: The figure with the drive 0.01 mm beside the line [mm].
-        aside_roll_deg: Greatest roll then [°].
-    """
-
-    preset: str
-    case: str
-    figure: str
-    plane_mm: float
-    space_mm: float
-    apart_mm: float
-    roll_deg: float
-    aside_mm: float
-    aside_roll_deg: float
+    preset: str  # its name
+    case: str  # "lift", "pass" or "belt"
+    figure: str  # "lift", "peak" or "stride"
+    plane_mm: float  # in the plane [mm]
+    space_mm: float  # in space, drive on the line [mm]
+    apart_mm: float  # greatest distance of a magnet from its planar place at any time [mm]
+    roll_deg: float  # greatest roll of any foot at any time, drive on the line [°]
+    aside_mm: float  # the figure with the drive 0.01 mm beside the line [mm]
+    aside_roll_deg: float  # greatest roll then [°]
 
     @property
     def difference(self) -> float:

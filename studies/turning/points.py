@@ -34,31 +34,18 @@ class Spread(NamedTuple):
 
 @dataclass(frozen=True)
 class Point:
-    """A pass averaged over neighbouring heights. Means are over passes that neither tipped nor were carried.
+    """A pass averaged over neighbours. Means are over those that neither tipped nor were carried."""
 
-    Attributes:
-        sweep: Which sweep it belongs to.
-        drive: The pass in the middle.
-        passes: How many neighbours were run.
-        tipped: In how many a foot rolled beyond 60°.
-        overturned: In how many it did not come back.
-        carried: How many others the drive carried along.
-        turn_deg: Turn [°].
-        side_mm: Way along +z, towards the drive [mm].
-        stride_mm: Way along −x [mm].
-        roll_deg: Greatest roll of each foot, mean over all neighbours [°].
-    """
-
-    sweep: str
-    drive: Drive
-    passes: int
-    tipped: int
-    overturned: int
-    carried: int
-    turn_deg: Spread
-    side_mm: Spread
-    stride_mm: Spread
-    roll_deg: tuple[float, ...]
+    sweep: str  # which sweep it belongs to
+    drive: Drive  # the pass in the middle
+    passes: int  # how many neighbours were run
+    tipped: int  # in how many a foot rolled beyond 60°
+    overturned: int  # in how many it did not come back
+    carried: int  # how many others the drive carried along
+    turn_deg: Spread  # turn [°]
+    side_mm: Spread  # way along +z, towards the drive [mm]
+    stride_mm: Spread  # way along −x [mm]
+    roll_deg: tuple[float, ...]  # greatest roll of each foot, mean over all neighbours [°]
 
     @property
     def kept(self) -> int:
