@@ -83,11 +83,12 @@ def test_a_policy_gives_what_its_model_predicts(name: str, normalise: bool, tmp_
     assert np.abs(load_policy(tmp_path / "policy")(seen) - wanted).max() < TOLERANCE
 
 
+@pytest.mark.parametrize("normalise", [True, False])
 @pytest.mark.parametrize("name", KINDS)
-def test_onnx_gives_what_the_policy_gives(name: str, tmp_path: Path) -> None:
+def test_onnx_gives_what_the_policy_gives(name: str, normalise: bool, tmp_path: Path) -> None:
     runtime = pytest.importorskip("onnxruntime")
     pytest.importorskip("onnx")
-    _, _, policy = trained(name, True)
+    _, _, policy = trained(name, normalise)
     export_onnx(policy, tmp_path / "policy.onnx")
     session = runtime.InferenceSession(tmp_path / "policy.onnx", providers=["CPUExecutionProvider"])
     for seen in (observations(policy), observations(policy)[:1]):
