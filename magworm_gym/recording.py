@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym import _magworm
 from magworm_gym._magworm import Batch, Scene
+from magworm_gym._magworm import record_scenes as simulated
 
 Floats = NDArray[np.float64]
 
@@ -99,7 +99,7 @@ def record_scenes(
     Raises:
         ValueError: A time that is no whole number of steps.
     """
-    runs = _magworm.record_scenes(scenes, duration_s, sample_s, nodes=nodes, threads=threads)
+    runs = simulated(scenes, duration_s, sample_s, nodes=nodes, threads=threads)
     return [_recording(scene, sample_s, *run) for scene, run in zip(scenes, runs, strict=True)]
 
 
