@@ -69,8 +69,8 @@ def train_seed(
         What ``finished.json`` holds: steps, simulated and wall-clock seconds, learning curve. A seed
         that is finished already is not trained again.
     """
-    if (folder / FINISHED).exists():
-        return read_finished(folder)
+    if (finished := _finished(folder)) is not None:
+        return finished
     began, place = time.monotonic(), place_of(settings, scenes, seed, threads)
     worms = place.native()
     learner = new_learner(settings, place, folder)
@@ -95,9 +95,12 @@ def train_seed(
     return summary
 
 
-def read_finished(folder: Path) -> dict[str, Any]:
-    """Reads what a finished seed has left."""
-    summary: dict[str, Any] = json.loads((folder / FINISHED).read_text(encoding="utf-8"))
+def _finished(folder: Path) -> dict[str, Any] | None:
+    """What a finished seed has left; where it is damaged, the last checkpoint gives it again."""
+    try:
+        summary: dict[str, Any] = json.loads((folder / FINISHED).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return None
     return summary
 
 
