@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magworm_gym import _magworm
+from magworm_gym._magworm import cuboid_field, cuboid_wrench
 from magworm_gym.arguments import numbers, shown, whole
 
 ALONG_HEIGHT_T = (0.0, 0.0, 1.22)
@@ -46,7 +46,7 @@ def field(
         ValueError: A size that is not positive, a value that is not finite, or shapes that do not fit.
     """
     points, magnetisation = _vectors(points_m=(points_m, 3), magnetisation_t=(magnetisation_t, 3))
-    return _magworm.cuboid_field(_size("size_m", size_m), magnetisation, points)
+    return cuboid_field(_size("size_m", size_m), magnetisation, points)
 
 
 def wrench(
@@ -99,7 +99,7 @@ def wrench(
         drive_magnetisation_t=(drive_magnetisation_t, 3),
         body_magnetisation_t=(body_magnetisation_t, 3),
     )
-    return _magworm.cuboid_wrench(
+    return cuboid_wrench(
         _size("drive_size_m", drive_size_m),
         _size("body_size_m", body_size_m),
         position,
