@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ pytest.importorskip("matplotlib")
 from matplotlib.colors import to_rgb
 
 from magworm_gym import Scene, SceneError, record_scenes
-from studies.kit.data import read_rows, write_rows
+from studies.kit.data import read_json, read_rows, write_rows
 from studies.kit.passes import values_of
+from studies.kit.study import main
+from studies.stability import study
 from studies.stability.axes import (
     ALONE,
     AXES,
@@ -26,7 +29,7 @@ from studies.stability.axes import (
 from studies.stability.cases import EXPLICIT_S, Case, Outcome, alone, bent, crossed, every_pair, judge
 from studies.stability.energy import CLAMPED, Swing, energies_j, measured
 from studies.stability.figures import COLOURS
-from studies.stability.findings import along, sentences
+from studies.stability.findings import sentences, tabled
 from studies.stability.knots import closed, determinant
 from studies.stability.limits import limits, refusal, rod, stays
 from studies.stability.postures import filled, untyings
@@ -118,13 +121,17 @@ def test_a_page_is_written_from_results_alone(tmp_path) -> None:
 
 def test_a_table_has_a_column_a_scheme_and_place() -> None:
     outcomes = [
-        Outcome(Case("rod", 3, "newmark", STEP.title, 2), "stable", 0.123),
-        Outcome(Case("rod", 2, "explicit", STEP.title, 2), "refused", math.nan, "why"),
         Outcome(Case("rod", 2, "newmark", STEP.title, 2), "accurate", 1.23e-9),
+        Outcome(Case("rod", 2, "newmark", STEP.title, 5), "broken", math.nan, "how"),
+        Outcome(Case("rod", 2, "explicit", STEP.title, 2), "refused", math.nan, "why"),
+        Outcome(Case("rod", 3, "newmark", STEP.title, 2), "stable", 0.123),
     ]
-    head, _, *rows = along(STEP, outcomes).splitlines()
-    assert head == "| step [ms] | newmark, plane | explicit, plane | newmark, space |"
-    assert "| 2 | accurate 1.2e-7 % | refused | stable 12 % |" in rows and len(rows) == len(STEP.values)
+    assert tabled(STEP.title, "setting", "integrator", outcomes).splitlines() == [
+        "| step [ms] | newmark, plane | explicit, plane | newmark, space |",
+        "| --- | --- | --- | --- |",
+        "| 2 | accurate 1.2e-7 % | refused | stable 12 % |",
+        "| 5 | broken |  |  |",
+    ]
 
 
 def test_energies_are_the_worst_of_all_stiffnesses() -> None:
@@ -252,3 +259,21 @@ def test_the_knot_comes_undone() -> None:
     for one in untyings():
         assert 0.0 < one.until_s < 0.02
         assert one.at_end == 1
+
+
+def test_measuring_leaves_a_table_of_each_name(tmp_path, monkeypatch) -> None:
+    swept = {"rod": (replace(STEP, values=(2.0, 5.0, 10.0)),)}
+    monkeypatch.setattr(study, "DATA", tmp_path)
+    monkeypatch.setattr(study, "ALONE", swept)
+    monkeypatch.setattr(study, "CROSSED", {"rod": ((swept["rod"][0], replace(STIFFNESS, values=(1e3,))),)})
+    monkeypatch.setattr(study, "every_pair", lambda: crossed("rod", (STEP, STIFFNESS))[-3:])
+    monkeypatch.setattr(study, "bent", short_starts)
+    for name in ("limits", "swings", "postures", "untyings"):
+        monkeypatch.setattr(study, name, list)
+    assert main({"stability": "studies.stability.study"}, ["measure", "stability", "--long"]) == 0
+    counts = {name: len(study.rows(name)) for name in ROWS}
+    assert counts == {
+        **dict.fromkeys(("limits", "swings", "knots", "postures"), 0),
+        "alone": 3 * 3 * 2, "crossed": 3 * 3, "bent": 3, "pairs": 3,
+    }  # fmt: skip
+    assert read_json(tmp_path / "explicit.json", Explicit).refusal == refusal()

@@ -11,6 +11,8 @@ pytest.importorskip("matplotlib")
 from magworm_gym import Recording, Scene, record_scenes
 from studies.kit.data import read_rows, write_rows
 from studies.kit.passes import MM, PASS_S, one_pass
+from studies.kit.study import main
+from studies.turning import study
 from studies.turning.figures import per_pass
 from studies.turning.findings import first_tipping, inside, left_out, margins, moved, shortened
 from studies.turning.passes import Drive, Outcome, Rolls, Tipping, outcome_of, outcomes, rolls_deg
@@ -171,3 +173,15 @@ def test_neighbours_are_run_around_a_point() -> None:
 def test_a_planar_preset_keeps_its_lift_in_space() -> None:
     lifts = [each for each in comparisons() if each.case == "lift"]
     assert len(lifts) == len(PRESETS) and all(abs(each.difference) < 0.01 for each in lifts)
+
+
+def test_measuring_leaves_the_tables(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(study, "DATA", tmp_path)
+    monkeypatch.setattr(study, "SWEEPS", {"offset": [Drive(3, 2.0, speed_mm_s=210.0)], "yaw": []})
+    monkeypatch.setattr(study, "TIPPING", [Drive(3, 2.0, speed_mm_s=210.0)])
+    monkeypatch.setattr(study, "comparisons", lambda: [])
+    assert main({"turning": "studies.turning.study"}, ["measure", "turning"]) == 0
+    found = study.sweeps()
+    (single,) = read_rows(tmp_path / "tipping.csv", Tipping)
+    assert [point.passes for point in found["offset"]] == [5] and found["yaw"] == []
+    assert single.rolls.roll_deg == pytest.approx(found["offset"][0].roll_deg, rel=0.1)

@@ -8,6 +8,7 @@ import numpy as np
 
 from magworm_gym import Recording, Scene, SceneError, record_scenes
 from studies.kit.passes import MM
+from studies.kit.words import plain
 from studies.stability.axes import ALONE, AXES, INSIDE, LONGER, STEP, Axis, Changes, base_scene
 from studies.stability.starts import STARTS, places, starting
 
@@ -66,6 +67,11 @@ class Case:
     def duration_s(self) -> float:
         """For how long it runs [s]."""
         return DURATION_S.get((self.body, self.integrator), LONG_S)
+
+    @property
+    def setting(self) -> str:
+        """The value in words."""
+        return plain(self.value)
 
     @property
     def scheme(self) -> str:
@@ -130,9 +136,12 @@ def bent() -> list[Case]:
 
 def bent_start(body: str, start: str, dimensions: int) -> list[Case]:
     """A bent start under every scheme, the default one with two steps."""
-    steps_s = [(name, STEP_S[name]) for name in ("newmark", "euler")]
-    steps_s[1:1] = [("newmark", SHORT_S)]
-    steps_s.append(("explicit", EXPLICIT_S[body, dimensions]))
+    steps_s = (
+        ("newmark", STEP_S["newmark"]),
+        ("newmark", SHORT_S),
+        ("euler", STEP_S["euler"]),
+        ("explicit", EXPLICIT_S[body, dimensions]),
+    )
     return [
         Case(body, dimensions, scheme, STEP.title, MM * step_s, start=start) for scheme, step_s in steps_s
     ]
@@ -148,9 +157,9 @@ def judge(cases: Sequence[Case], *, accuracy: bool = True) -> list[Outcome]:
     Raises:
         RuntimeError: A number that is not finite left the simulator, whatever the case's status.
     """
-    plain = _runs(cases, 1)
+    found = _runs(cases, 1)
     finer = _runs(cases, FINER) if accuracy else [""] * len(cases)
-    return [_outcome(*each) for each in zip(cases, plain, finer, strict=True)]
+    return [_outcome(*each) for each in zip(cases, found, finer, strict=True)]
 
 
 def _runs(cases: Sequence[Case], finer: int) -> list[Recording | str]:
@@ -172,14 +181,14 @@ def _made(case: Case, finer: int) -> Scene | str:
         return str(error)
 
 
-def _outcome(case: Case, plain: Recording | str, finer: Recording | str) -> Outcome:
-    if isinstance(plain, str):
-        return Outcome(case, "refused", np.nan, plain)
-    if plain.broken is not None:
-        return Outcome(case, "broken", np.nan, plain.broken)
+def _outcome(case: Case, found: Recording | str, finer: Recording | str) -> Outcome:
+    if isinstance(found, str):
+        return Outcome(case, "refused", np.nan, found)
+    if found.broken is not None:
+        return Outcome(case, "broken", np.nan, found.broken)
     if isinstance(finer, str) or finer.broken is not None or case.shortest:
         return Outcome(case, "stable", np.nan)
-    apart_m = np.linalg.norm(plain.nodes - finer.nodes, axis=-1).max()
-    rest_m = np.linalg.norm(np.diff(plain.nodes[0], axis=0), axis=-1).sum()
+    apart_m = np.linalg.norm(found.nodes - finer.nodes, axis=-1).max()
+    rest_m = np.linalg.norm(np.diff(found.nodes[0], axis=0), axis=-1).sum()
     error = float(apart_m / rest_m)
     return Outcome(case, "accurate" if error <= TOLERANCE else "stable", error)

@@ -7,12 +7,12 @@ and the mean of the stored energies at both its ends.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magworm_gym import Recording, Scene, SceneError, record_scenes
+from studies.stability.axes import Changes
 from studies.stability.cases import INTEGRATORS
 
 Floats = NDArray[np.float64]
@@ -25,17 +25,12 @@ STIFFNESSES_PA = (1e3, 1e5, 1e7, 1e10)
 ELEMENTS = 10
 MOST_STEPS = 20_000
 DURATION_S = 0.5
-GROUND = {"static_friction": 0.8, "dynamic_friction": 0.6}
+FREE: Changes = {"body.clamp": "none", "ground": {"static_friction": 0.8, "dynamic_friction": 0.6}}
 
 CLAMPED = "let go from the horizontal"
-MOTIONS: Mapping[str, dict[str, Any]] = {
+MOTIONS: Mapping[str, Changes] = {
     CLAMPED: {"body.clamp": "head"},
-    "dropped on its end": {
-        "body.clamp": "none",
-        "ground": GROUND,
-        "start.angle_deg": 60.0,
-        "start.height_m": 0.05,
-    },
+    "dropped on its end": FREE | {"start.angle_deg": 60.0, "start.height_m": 0.05},
 }
 BAND = 0.02
 """Ours: most that kinetic energy and height may exceed the energy at the start, over weight times length."""
@@ -116,9 +111,7 @@ def measured(swing: Swing) -> Swing:
 
 
 def energies_j(record: Recording, swing: Swing) -> tuple[Floats, Floats, float]:
-    """Energy of motion and height, and of the springs, in the middle of each step (T − 1,) [J].
-
-    Also weight times length [J].
+    """Energy of motion and height, and of springs, within each step (T − 1,), and weight times length [J].
 
     The discrete rod's own (Bergou 2008), written down here from the places of the nodes.
     """

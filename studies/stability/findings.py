@@ -4,9 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from studies.kit.page import table
-from studies.kit.words import exponent, number, plain
-from studies.stability.axes import Axis
-from studies.stability.cases import INTEGRATORS, VERDICTS, Outcome, bent_start
+from studies.kit.words import exponent, number
+from studies.stability.cases import VERDICTS, Outcome
 from studies.stability.energy import Swing
 from studies.stability.starts import STARTS, places
 
@@ -22,22 +21,20 @@ def verdicts(outcomes: Iterable[Outcome], integrator: str, dimensions: Sequence[
     return [counts[verdict] for verdict in VERDICTS]
 
 
-def along(axis: Axis, outcomes: Sequence[Outcome]) -> str:
-    """A table of the outcomes along an axis, with a column for each scheme in plane and space."""
-    cells = {(o.case.value, o.case.dimensions, o.case.integrator): cell(o) for o in outcomes}
-    columns = sorted({key[1:] for key in cells}, key=lambda key: (key[0], INTEGRATORS.index(key[1])))
-    head = [axis.title, *(f"{scheme}, {WHERE[dimensions]}" for dimensions, scheme in columns)]
-    rows = [[plain(value), *(cells.get((value, *key), "") for key in columns)] for value in axis.values]
-    return table(head, rows)
+def tabled(title: str, row: str, scheme: str, outcomes: Sequence[Outcome]) -> str:
+    """A table of outcomes, with a column for each scheme in plane and space.
 
-
-def starts(body: str, outcomes: Sequence[Outcome]) -> str:
-    """A table of the bent starts of a body."""
-    cells = {(o.case.start, o.case.dimensions, o.case.scheme): cell(o) for o in outcomes}
-    columns = [(of, case.scheme) for of in WHERE for case in bent_start(body, "", of)]
-    head = [body, *(f"{scheme}, {WHERE[dimensions]}" for dimensions, scheme in columns)]
-    rows = [[start, *(cells.get((start, *column), "") for column in columns)] for start in STARTS[body]]
-    return table(head, rows)
+    Args:
+        title: Of the first column.
+        row: The attribute of a case that its rows differ by.
+        scheme: The attribute that its columns differ by.
+        outcomes: In the order of rows and columns.
+    """
+    cells = {(getattr(o.case, row), o.case.dimensions, getattr(o.case, scheme)): cell(o) for o in outcomes}
+    columns = dict.fromkeys(key[1:] for key in cells)
+    head = [title, *(f"{name}, {WHERE[dimensions]}" for dimensions, name in columns)]
+    names = dict.fromkeys(name for name, *_ in cells)
+    return table(head, ([name, *(cells.get((name, *key), "") for key in columns)] for name in names))
 
 
 def described(body: str, start: str) -> str:

@@ -7,13 +7,15 @@ by the environment's own factor, which no rule looks at.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from pathlib import Path
 
+import msgspec
 import numpy as np
 
 from magworm_gym import Scene, SceneError
 from magworm_gym._magworm import Batch
 from studies.kit.passes import values_of
+from studies.stability.axes import Changes
 
 SOFTER = 1e3
 STEPS = 4000
@@ -26,20 +28,7 @@ as far."""
 CLOSE = 1e-3
 """Relative width of the bracket at which bisection ends."""
 
-MAGNETS = [{"position_m": 0.02, "polarity": 1}, {"position_m": 0.04, "polarity": -1}]
-HEAVY = {"length_m": 0.008, "width_m": 0.008, "height_m": 0.004, "remanence_t": 1.22, "density_kg_m3": 1e5}
-RODS: dict[str, dict[str, Any]] = {
-    "rod": {},
-    "1 mm thin": {"body.thickness_m": 1e-3},
-    "30 mm thick": {"body.thickness_m": 0.03},
-    "100 elements": {"body.elements": 100},
-    "1 GPa": {"material.youngs_modulus_pa": 1e9},
-    "τ = 0.3 ms": {"material.damping_time_s": 3e-4},
-    "τ = 0.1 s": {"material.damping_time_s": 0.1},
-    "heavy magnets": {"magnet": HEAVY, "body.magnets": MAGNETS, "magnetic_terms.mutual": False},
-}
-"""Changes of the preset ``cantilever`` with ten elements and no damping. Magnets are masses here: their
-forces on each other fold so soft a rod, with any step."""
+RODS = msgspec.toml.decode((Path(__file__).parent / "rods.toml").read_bytes(), type=dict[str, Changes])
 
 
 @dataclass(frozen=True)
@@ -51,11 +40,6 @@ class Limit:
     predicted_s: float  # what the simulator says [s]
     found_s: float  # what bisection found [s]
     reason: str  # what limits it, in the simulator's words
-
-    @property
-    def ratio(self) -> float:
-        """Found over predicted."""
-        return self.found_s / self.predicted_s
 
 
 def limits(names: Sequence[str] = tuple(RODS)) -> list[Limit]:

@@ -13,7 +13,7 @@ from studies.kit.words import capital, in_words, plain
 from studies.turning.findings import MEASURES, of
 from studies.turning.passes import TIPPED_DEG, Tipping
 from studies.turning.points import Point
-from studies.turning.sweeps import HEIGHTS_MM, OFFSET_MM, ROBOTS, TIPPING_OFFSETS_MM
+from studies.turning.sweeps import HEIGHTS_MM, ROBOTS, TIPPING_OFFSETS_MM
 
 OVER_DEG = 95.0
 """Where a foot is drawn that lies over: how far beyond 90° means nothing."""
@@ -24,29 +24,22 @@ HIGH_IN = 3.3
 OFFSET = "offset of the drive [mm]"
 
 
-def per_pass(points: Sequence[Point], field: str, label: str) -> Any:
-    """Yaw, side-step and stride against one property of the drive."""
-    figure, axes = panels(1, len(MEASURES), (WIDTH_IN, HIGH_IN))
-    for axis, measure in zip(axes, MEASURES, strict=True):
-        curves(axis, points, field, measure)
-        axis.set_xlabel(label)
-        axis.xaxis.set_major_locator(MaxNLocator(8, steps=(1, 2, 3, 5), integer=True))
-    legend_above(figure, axes[0])
-    return figure
-
-
-def per_pass_by_offset(points: Sequence[Point]) -> Any:
-    """The same against the yaw of the drive: on the line above, beside it below."""
-    figure, rows = panels(2, len(MEASURES), (WIDTH_IN, 5.8), sharex=True)
-    for row, offset in zip(rows, (0.0, OFFSET_MM), strict=True):
-        here = [point for point in points if point.drive.offset_mm == offset]
+def per_pass(
+    points: Sequence[Point], field: str, label: str, offsets: Sequence[float | None] = (None,)
+) -> Any:
+    """Yaw, side-step and stride against one property of the drive, in a row for each offset."""
+    size = (WIDTH_IN, HIGH_IN + 2.5 * (len(offsets) - 1))
+    figure, rows = panels(len(offsets), len(MEASURES), size, sharex=True, squeeze=False)
+    for row, offset in zip(rows, offsets, strict=True):
+        here = [point for point in points if offset in (None, point.drive.offset_mm)]
         for axis, measure in zip(row, MEASURES, strict=True):
-            curves(axis, here, "yaw_deg", measure)
-        row[0].set_title(f"offset {offset:g} mm")
-    for axis in rows[1]:
-        axis.set_xlabel("yaw of the drive [°]")
-        axis.set_xticks(range(0, 91, 15))
-    legend_above(figure, rows[1, 0])
+            curves(axis, here, field, measure)
+        if offset is not None:
+            row[0].set_title(f"offset {offset:g} mm")
+    for axis in rows[-1]:
+        axis.set_xlabel(label)
+        axis.xaxis.set_major_locator(MaxNLocator(8, steps=(1, 1.5, 2, 3, 5), integer=True))
+    legend_above(figure, rows[-1, 0])
     return figure
 
 

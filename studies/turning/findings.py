@@ -60,16 +60,6 @@ def rugged(points: Iterable[Point]) -> list[Point]:
     return [point for point in points if point.stride_mm.high - point.stride_mm.low > RUGGED_MM]
 
 
-def opposed(points: Iterable[Point]) -> list[Point]:
-    """Points whose neighbours turn to opposite sides."""
-    return [point for point in points if point.turn_deg.low < -SIGN_DEG and point.turn_deg.high > SIGN_DEG]
-
-
-def turned_away(points: Iterable[Point]) -> list[Point]:
-    """Points that turn away from the drive."""
-    return [point for point in points if point.turn_deg.mean < -SIGN_DEG]
-
-
 def left_out(points: Sequence[Point], field: str, unit: str) -> str:
     """Where neighbours tipped over or were carried along, as the end of a sentence."""
     parts = []

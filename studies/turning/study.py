@@ -13,7 +13,7 @@ from studies.kit.page import page
 from studies.kit.study import Study
 from studies.kit.timing import Stopwatch
 from studies.turning import findings
-from studies.turning.figures import per_pass, per_pass_by_offset, roll_against_offset, tipping_map
+from studies.turning.figures import per_pass, roll_against_offset, tipping_map
 from studies.turning.passes import Tipping, outcomes
 from studies.turning.plane import ASIDE_MM, Comparison, comparisons
 from studies.turning.points import NEIGHBOURS_MM, Point, points
@@ -78,7 +78,7 @@ def figures() -> dict[str, Any]:
     found = sweeps()
     drawn = {
         "offset": per_pass(found["offset"], "offset_mm", "offset of the drive [mm]"),
-        "yaw": per_pass_by_offset(found["yaw"]),
+        "yaw": per_pass(found["yaw"], "yaw_deg", "yaw of the drive [°]", (0.0, OFFSET_MM)),
         "height": per_pass(found["height"], "height_mm", "height of the drive [mm]"),
         "speed": per_pass(found["speed"], "speed_mm_s", "speed of the drive [mm/s]"),
         "roll": roll_against_offset(found["offset"]),
