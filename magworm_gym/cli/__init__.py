@@ -8,7 +8,7 @@ from typing import NoReturn
 
 from magworm_gym import PolicyError, SceneError, __version__
 
-COMMANDS = {"identify": "identify", "example-tracks": "identify", "policies": ""}
+COMMANDS = {"identify": "identify", "example-tracks": "identify", "policies": "", "watch": "render"}
 """Module of this package that adds a command → the extra that it needs."""
 
 MISTAKE = 2
