@@ -3,7 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from magworm_gym.recording import Floats
 
 # Time does not reach the camera, so smoothing is a share of the way per frame.
 FOLLOWED_SHARE = 0.12
@@ -49,7 +50,7 @@ class Camera:
         """Column [pixels] of world x [m]."""
         return (x_m - self.centre_m) * self.pixels_per_m + 0.5 * self.width
 
-    def pixels(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def pixels(self, points_m: Floats) -> Floats:
         """Pixels (…, 2), column and row from the top left, of world points (…, 2) [m]."""
         scale, middle = (self.pixels_per_m, -self.pixels_per_m), (0.5 * self.width, self.ground_px)
         return np.asarray((points_m - np.array([self.centre_m, 0.0])) * scale + middle)

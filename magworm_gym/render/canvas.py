@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from magworm_gym.recording import Floats
 from magworm_gym.render.palette import TEXT, Colour
 
 SUPERSAMPLING = 3
@@ -50,13 +51,13 @@ class Region:
         self._draw = ImageDraw.Draw(image)
         self._origin = np.asarray(origin, dtype=np.float64)
 
-    def _points(self, points: NDArray[np.float64]) -> list[tuple[float, float]]:
+    def _points(self, points: Floats) -> list[tuple[float, float]]:
         enlarged = (points - self._origin) * SUPERSAMPLING
         return list(map(tuple, enlarged.tolist()))
 
     def polygon(
         self,
-        points: NDArray[np.float64],
+        points: Floats,
         fill: Colour | None,
         edge: Colour | None = None,
         edge_px: float = 1.0,
@@ -69,12 +70,12 @@ class Region:
             width = max(1, round(edge_px * SUPERSAMPLING))
             self._draw.line([*corners, corners[0]], fill=edge, width=width, joint="curve")
 
-    def line(self, points: NDArray[np.float64], colour: Colour, width_px: float) -> None:
+    def line(self, points: Floats, colour: Colour, width_px: float) -> None:
         """Draws an open polyline (P, 2) [pixels]."""
         width = max(1, round(width_px * SUPERSAMPLING))
         self._draw.line(self._points(points), fill=colour, width=width, joint="curve")
 
-    def disc(self, centre: NDArray[np.float64], radius_px: float, colour: Colour) -> None:
+    def disc(self, centre: Floats, radius_px: float, colour: Colour) -> None:
         """Draws a filled disc around ``centre`` (2,) [pixels]."""
         corners = self._points(np.stack([centre - radius_px, centre + radius_px]))
         self._draw.ellipse([corners[0], corners[1]], fill=colour)
@@ -125,7 +126,7 @@ class Canvas:
         return np.array(self._image)
 
     @contextmanager
-    def region(self, around: Sequence[NDArray[np.float64]] | None = None) -> Iterator[Region]:
+    def region(self, around: Sequence[Floats] | None = None) -> Iterator[Region]:
         """Supersamples a part of the frame, to be drawn on within the block.
 
         Args:
@@ -137,7 +138,7 @@ class Canvas:
         yield Region(enlarged, (left, top))
         self._image.paste(enlarged.reduce(SUPERSAMPLING), (left, top))
 
-    def _box(self, around: Sequence[NDArray[np.float64]]) -> list[int]:
+    def _box(self, around: Sequence[Floats]) -> list[int]:
         """Left, top, right, bottom of the pixels around points; one pixel where all lie outside the frame."""
         points = np.concatenate([np.reshape(array, (-1, 2)) for array in around])
         size = np.array(self._image.size)

@@ -4,13 +4,15 @@ import functools
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from magworm_gym.recording import Floats
 
 REFINEMENT = 4
 
 
 @functools.lru_cache(maxsize=16)
-def refinement_matrix(nodes: int, factor: int = REFINEMENT) -> NDArray[np.float64]:
+def refinement_matrix(nodes: int, factor: int = REFINEMENT) -> Floats:
     """Weights that refine a polyline by a Catmull-Rom spline through its points.
 
     Args:
@@ -38,9 +40,7 @@ def refinement_matrix(nodes: int, factor: int = REFINEMENT) -> NDArray[np.float6
     return np.asarray(matrix)
 
 
-def band(
-    nodes: NDArray[np.float64], thickness: NDArray[np.float64], share: float = 1.0
-) -> NDArray[np.float64]:
+def band(nodes: Floats, thickness: Floats, share: float = 1.0) -> Floats:
     """Closed outline of a band of varying thickness along a centre line.
 
     Args:
@@ -64,7 +64,7 @@ def band(
     return np.concatenate([line + half[:, None] * normals, (line - half[:, None] * normals)[::-1]])
 
 
-def half(outline: NDArray[np.float64], direction: NDArray[np.float64]) -> NDArray[np.float64]:
+def half(outline: Floats, direction: Floats) -> Floats:
     """The part of a convex outline (P, 2) from the mean of its corners towards ``direction`` (2,)."""
     heights = (outline - outline.mean(axis=0)) @ direction
     corners = []
@@ -77,7 +77,7 @@ def half(outline: NDArray[np.float64], direction: NDArray[np.float64]) -> NDArra
     return np.array(corners).reshape(-1, 2)
 
 
-def rectangle(centre: ArrayLike, axes: NDArray[np.float64], size: ArrayLike) -> NDArray[np.float64]:
+def rectangle(centre: ArrayLike, axes: Floats, size: ArrayLike) -> Floats:
     """Corners of a rectangle, or of the shadow of one in space.
 
     Args:
@@ -92,13 +92,13 @@ def rectangle(centre: ArrayLike, axes: NDArray[np.float64], size: ArrayLike) -> 
     return np.asarray(centre + corners @ axes)
 
 
-def turned(angle: float) -> NDArray[np.float64]:
+def turned(angle: float) -> Floats:
     """Along a body that is turned by an angle [rad], and up from it: rows x, y."""
     cosine, sine = math.cos(angle), math.sin(angle)
     return np.array([[cosine, sine], [-sine, cosine]])
 
 
-def rotations(quaternions: NDArray[np.float64]) -> NDArray[np.float64]:
+def rotations(quaternions: Floats) -> Floats:
     """Axes of bodies in space (M, 3, 3) from w, x, y, z (M, 4): in columns along each, up and to its side."""
     w, x, y, z = quaternions.T
     matrices = [

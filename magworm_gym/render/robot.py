@@ -4,13 +4,11 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from magworm_gym.recording import Floats
 from magworm_gym.render.canvas import Region
 from magworm_gym.render.outline import band
 from magworm_gym.render.palette import EYE, RUBBER, RUBBER_EDGE, RUBBER_LIGHT, TRAIL_NEW, TRAIL_OLD, mix
-
-Floats = NDArray[np.float64]
 
 MAGNET_GEOMETRY = ("magnet_size_m", "magnet_direction", "magnet_offset_m")
 """Of each body magnet (M, 3), in ``Scene.geometry``."""

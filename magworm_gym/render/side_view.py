@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.recording import Moment
+from magworm_gym.recording import Floats, Moment
 from magworm_gym.render import backdrop
 from magworm_gym.render.camera import Camera
 from magworm_gym.render.canvas import Canvas, Region
@@ -25,8 +25,6 @@ from magworm_gym.render.window import Windowed
 
 if TYPE_CHECKING:
     from magworm_gym.tasks import Goal
-
-Floats = NDArray[np.float64]
 
 SPAN_BODY_LENGTHS = 3.4
 HORIZON = 0.32

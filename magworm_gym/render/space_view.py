@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magworm_gym.recording import Moment
+from magworm_gym.recording import Floats, Moment
 from magworm_gym.render.animation import SEPARATOR_PX, joined
 from magworm_gym.render.outline import rotations
 from magworm_gym.render.robot import body_length
@@ -17,8 +17,6 @@ from magworm_gym.render.window import Windowed
 
 if TYPE_CHECKING:
     from magworm_gym.tasks import Goal
-
-Floats = NDArray[np.float64]
 
 SIDE_SPAN_BODY_LENGTHS = 2.6
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from magworm_gym.recording import Moment
+from magworm_gym.recording import Floats, Moment
 from magworm_gym.render.backdrop import label
 from magworm_gym.render.camera import FOLLOWED_SHARE
 from magworm_gym.render.canvas import Canvas, Region
@@ -39,8 +39,6 @@ from magworm_gym.render.side_view import SPAN_BODY_LENGTHS
 
 if TYPE_CHECKING:
     from magworm_gym.tasks import Goal
-
-Floats = NDArray[np.float64]
 
 LABELLED_CM = 5
 
