@@ -1,4 +1,1 @@
-"""What the simulator does with stiff and extreme scenes: the page ``docs/stability.md``.
-
-Run ``python -m studies.stability``.
-"""
+"""What each integrator does with stiff and extreme scenes: where it is accurate, stable, or breaks."""
