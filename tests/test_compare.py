@@ -3,9 +3,12 @@
 import os
 import subprocess
 import sys
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -30,6 +33,7 @@ from magworm_gym.tasks import Reach, Task, Turn
 
 TRAINING = Path(__file__).parent.parent / "training"
 CONFIGS = TRAINING / "configs"
+NUMBERS = TRAINING.parent / "docs" / "results" / "numbers.toml"
 CRAWL = """
 [ID.training]
 num_envs = 8
@@ -278,6 +282,13 @@ def test_what_decides_about_a_policy_is_its_content(tmp_path: Path) -> None:
     assert content_digest(tmp_path / "there") != before
 
 
+def numbers_on_pages(report: str, path: Path) -> list[float]:
+    """The single numbers that pages want of a report, as a run has left them."""
+    listed = msgspec.toml.decode(NUMBERS.read_bytes()).values()
+    kept = msgspec.json.decode(path.read_bytes())
+    return [reduce(getitem, number["at"], kept) for number in listed if number["report"] == report]
+
+
 def test_a_comparison_of_crawling_writes_everything_and_is_not_done_twice(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -290,6 +301,7 @@ def test_a_comparison_of_crawling_writes_everything_and_is_not_done_twice(
     assert files == {"report.md", "results.json", "race.mp4", "race.gif"} | figures
     report = read_report(out / "results.json")
     assert report == read_report(kept)
+    assert numbers_on_pages("crawl", kept) == [3]
     assert len(report.data["rivals"]) == 6 * 5
     assert {one["robot"] for one in report.data["rivals"]} == {"intact", *(f"without {i}" for i in range(4))}
     text = (out / "report.md").read_text()
@@ -322,6 +334,7 @@ def test_a_comparison_with_goals_leaves_a_report_and_is_not_done_twice(
     files = {path.name for path in out.iterdir() if path.is_file() and not path.name.startswith(".")}
     assert files == {"report.md", "results.json", f"{task}.png", f"{task}.mp4", f"{task}.gif"}
     report = read_report(out / "results.json")
+    assert len(numbers_on_pages(task, out / "results.json")) == (1 if task == "turn" else 0)
     titles = [one["rival"] for one in report.data["rivals"]]
     assert titles == ["learned policy", *(family.title for family in FAMILIES.values())]
     text = (out / "report.md").read_text()
