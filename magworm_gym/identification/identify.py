@@ -127,10 +127,10 @@ def _fitted(
 
 
 def _starts(problem: Problem, evaluator: Evaluator) -> Floats:
-    """Points of the cube (S, P) that are tried first: the base scene, then known robots; none where blind."""
-    if problem.settings.blind:
-        return np.empty((0, len(problem.space)))
-    return np.array([evaluator.base_unit, *map(problem.space.unit_of, problem.starts)])
+    """Points of the cube (S, P) that are tried first: the base scene unless blind, then known robots."""
+    base = [] if problem.settings.blind else [evaluator.base_unit]
+    points = [*base, *map(problem.space.unit_of, problem.starts)]
+    return np.array(points).reshape(-1, len(problem.space))
 
 
 def _identification(

@@ -150,6 +150,7 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
     found = _experiments(table.experiment, base, [parameter.path for parameter in space.parameters], folder)
     experiments = [each.experiment for each in found]
     sweeps = _sweeps(table.sweep, base, {experiment.name for experiment in experiments})
+    starts = tuple(_start(each, at) for at, each in enumerate(table.start))
     runs: list[Run] = [*experiments, *sweeps]
     if not runs:
         raise ProblemError("experiment is missing; allowed: at least one [[experiment]] or one [[sweep]]")
@@ -168,7 +169,7 @@ def make_problem(entries: Mapping[str, Any], folder: Path) -> Problem:
         experiments=tuple(experiments),
         sweeps=tuple(sweeps),
         aims=tuple(aims),
-        starts=tuple(_start(each, at) for at, each in enumerate(table.start)),
+        starts=() if table.search.blind else starts,
         sample_s=_sample(table.sample_s, runs),
         settings=table.search,
         fingerprint=_fingerprint(entries, base, runs, aims),

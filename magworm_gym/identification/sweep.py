@@ -16,12 +16,12 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from magworm_gym._magworm import Batch, Scene
-from magworm_gym.documents import Table
+from magworm_gym.documents import Table, parse_toml
 from magworm_gym.identification.experiment import Run
 from magworm_gym.recording import Floats, Recording
 
-LANES = 8
-"""Robots that run side by side: the lanes of a block."""
+LANES = {"double": 8, "single": 16}
+"""Robots that run side by side by the precision: the lanes of a block."""
 
 SPEED = "drive_speed"
 """Name of the factor of the drive's speed."""
@@ -106,9 +106,14 @@ class Sweep(Run):
         scene = scene.with_values({**motion, "control.step_s": sample_s})
         lanes = sorted((lane for row in self.lanes for lane in row), key=lambda lane: lane.speed_m_s)
         recordings: dict[str, Recording] = {}
-        for first in range(0, len(lanes), LANES):
-            recordings.update(self._side_by_side(scene, lanes[first : first + LANES], sample_s))
+        for first in range(0, len(lanes), self._block):
+            recordings.update(self._side_by_side(scene, lanes[first : first + self._block], sample_s))
         return recordings
+
+    @cached_property
+    def _block(self) -> int:
+        """Lanes of a block."""
+        return LANES[parse_toml(self.scene.to_toml(), self.name)["solver"]["precision"]]
 
     def _side_by_side(self, scene: Scene, lanes: list[Lane], sample_s: float) -> dict[str, Recording]:
         batch = self._batch(scene, lanes)

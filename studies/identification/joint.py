@@ -14,7 +14,7 @@ without it; a run that was stopped goes on, one that is done is kept. From them 
 
 import argparse
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -39,8 +39,21 @@ PAGE = ROOT / "docs/identification/joint.md"
 ENSEMBLE = ROOT / "rust/magworm/scenes/ensemble"
 CONDITIONS = HERE / "ensemble.json"
 
-SETTINGS = {"restarts": 12, "generations": 120, "scatter": 2000, "rounds": 60}
-"""Settings of the search from a blind start; each can be given."""
+DRAFT = {"solver.step_s": 0.005, "solver.precision": "single"}
+"""Values of the scene in the first part of a search, which a candidate passes in a third of the time. Losses
+are off by several units there: it tells robots that fit from those that do not, and no more."""
+
+DRAFTED = {"restarts": 12, "generations": 60, "patience": 20, "scatter": 4000, "rounds": 0}
+"""Settings of that part, which begins blind."""
+
+SETTINGS = {"restarts": 4, "generations": 40, "patience": 15, "rounds": 20}
+"""Settings of the second part, with the scenes as they are; each can be given."""
+
+REFINED = {"halve_after": [8, 16], "scatter": 8, "first_step": 0.05, "blind": True}
+"""More of them: it begins with the best of the first part alone."""
+
+BEGINNINGS, APART_AT_FIRST = 24, 0.1
+"""Candidates of the first part that the second begins with, and how far apart they are in the unit cube."""
 
 TRIES = 40
 """Candidates of a run that are looked at to find its robot."""
@@ -61,6 +74,7 @@ class Search:
         report: Its report.
         units: Its candidates (C, P), best first.
         losses: Their losses (C,).
+        drafted: Candidates of the part before.
     """
 
     name: str
@@ -69,6 +83,12 @@ class Search:
     report: dict[str, Any]
     units: Floats
     losses: Floats
+    drafted: int = 0
+
+    @property
+    def candidates(self) -> int:
+        """How many it tried, those of the part before included."""
+        return self.drafted + len(self.losses)
 
     @property
     def loss(self) -> float:
@@ -185,8 +205,19 @@ def groups(problem: Problem) -> list[str]:
 
 def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without: str = "") -> Search:
     """A run from a blind start, done now where it was not before."""
-    problem = read_problem(file, {**settings, "seed": seed, "blind": True}, [without] if without else [])
-    folder = out / f"{file.stem}-{seed}{f'-without-{without}' if without else ''}"
+    groups = [without] if without else []
+    name = f"{file.stem}-{seed}{f'-without-{without}' if without else ''}"
+    draft = read_problem(file, {**DRAFTED, "seed": seed, "blind": True}, groups, DRAFT)
+    drafted = done(out / f"{name}-draft", draft, without)
+    starts = tuple(draft.space.scene_values(unit) for unit in beginnings(drafted))
+    problem = read_problem(file, {**REFINED, **settings, "seed": seed}, groups)
+    fingerprint = f"{problem.fingerprint}-{draft.fingerprint}"
+    refined = done(out / name, replace(problem, starts=starts, fingerprint=fingerprint), without)
+    return replace(refined, drafted=len(drafted.losses))
+
+
+def done(folder: Path, problem: Problem, without: str) -> Search:
+    """One part of a run."""
     if not (folder / "report.json").exists():
         print(folder, flush=True)
         write_results(identify(problem, folder, resume=folder.exists()), folder)
@@ -195,6 +226,17 @@ def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without
         units, losses = kept["units"][order], kept["losses"][order]
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     return Search(folder.name, problem, without, report, units, losses)
+
+
+def beginnings(drafted: Search) -> list[Floats]:
+    """The best candidates (P,) of a search that are apart from each other."""
+    chosen: list[Floats] = []
+    for unit in drafted.units:
+        if all(np.linalg.norm(unit - other) >= APART_AT_FIRST for other in chosen):
+            chosen.append(unit)
+        if len(chosen) == BEGINNINGS:
+            break
+    return chosen
 
 
 def ensemble(blind: Blind) -> list[int | None]:
