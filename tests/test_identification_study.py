@@ -63,33 +63,23 @@ def test_blind_starts_are_run_once_and_give_a_page_and_an_ensemble(tmp_path, mon
     runs, page, robots = tmp_path / "runs", tmp_path / "joint.md", tmp_path / "robots"
     words = ["--problems", problem_file, "--out", runs, "--page", page, "--ensemble", robots]
     words += ["--conditions", tmp_path / "ensemble.json"]
-    words += [
-        "--seeds",
-        2,
-        "--crossed",
-        1,
-        "--restarts",
-        2,
-        "--generations",
-        3,
-        "--scatter",
-        9,
-        "--rounds",
-        1,
-    ]
+    sizes = {"seeds": 2, "crossed": 1, "restarts": 2, "generations": 3, "rounds": 1}
+    sizes |= {"draft-restarts": 2, "draft-generations": 2, "draft-scatter": 9}
+    words += [word for name, size in sizes.items() for word in (f"--{name}", size)]
     monkeypatch.setattr(sys, "argv", ["joint.py", *map(str, words)])
     joint.main()
     assert sorted(folder.name for folder in runs.iterdir()) == [
-        "small-0",
-        "small-0-without-stride",
-        "small-1",
+        f"small-{run}{part}" for run in ("0", "0-without-stride", "1") for part in ("", "-draft")
     ]
     text = page.read_text()
     assert "| stride | small-0-without-stride |" in text and "`ground.adhesion_n`" in text
     problem = read_problem(problem_file)
     scenes = [Scene.from_toml(path.read_text()) for path in sorted(robots.iterdir())]
     assert len(scenes) in (1, 2)
-    kept = np.load(runs / "small-0/candidates.npz")["units"]
+    kept, drafted = (np.load(runs / f"small-0{part}/candidates.npz")["units"] for part in ("", "-draft"))
+    assert (np.linalg.norm(kept[0] - drafted, axis=1) < 1e-9).any(), "the second part begins with the first's"
+    row = next(line for line in text.splitlines() if line.startswith("| small-0 |"))
+    assert f"| {len(kept) + len(drafted)} |" in row
     monkeypatch.setattr(joint, "identify", None)
     page.unlink()
     joint.main()

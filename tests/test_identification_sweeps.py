@@ -27,12 +27,14 @@ def test_a_robot_of_a_sweep_does_what_a_scene_of_its_own_does_bit_for_bit():
         assert recording.time_s[-1] == pytest.approx(way_m / speed_m_s + sweep.settle_s, abs=0.01)
 
 
-def test_conditions_are_factors_of_the_scene_and_more_lanes_than_a_block_has():
+@pytest.mark.parametrize(("precision", "speeds"), [("double", 3), ("single", 6)])
+def test_conditions_are_factors_of_the_scene_and_more_lanes_than_a_block_has(precision, speeds):
     conditions = ({"static_friction": 1.0}, {"static_friction": 1.1}, {"static_friction": 1.0})
-    sweep = Sweep("three", moving(0.2), (0.2, 0.3, 0.4), conditions)
-    assert len(sweep.lanes) * len(conditions) > LANES
+    scene = moving(0.2).with_values({"solver.precision": precision})
+    sweep = Sweep("three", scene, tuple(0.2 + 0.05 * np.arange(speeds)), conditions)
+    assert len(sweep.lanes) * len(conditions) > LANES[precision]
     strides = Curve(sweep, STRIDE).values(sweep.record({}, 0.01))
-    assert strides.shape == (3, 3)
+    assert strides.shape == (speeds, 3)
     assert np.array_equal(strides[:, 0], strides[:, 2])
     assert (strides[:, 0] != strides[:, 1]).all()
 

@@ -43,8 +43,8 @@ DRAFT = {"solver.step_s": 0.005, "solver.precision": "single"}
 """Values of the scene in the first part of a search, which a candidate passes in a third of the time. Losses
 are off by several units there: it tells robots that fit from those that do not, and no more."""
 
-DRAFTED = {"restarts": 12, "generations": 60, "patience": 20, "scatter": 4000, "rounds": 0}
-"""Settings of that part, which begins blind."""
+DRAFTED = {"restarts": 12, "generations": 60, "patience": 20, "scatter": 4000}
+"""Settings of that part, which begins blind; each can be given."""
 
 SETTINGS = {"restarts": 4, "generations": 40, "patience": 15, "rounds": 20}
 """Settings of the second part, with the scenes as they are; each can be given."""
@@ -176,13 +176,15 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("runs/joint"), help="folder of the runs")
     parser.add_argument("--seeds", type=int, default=8, help="blind starts of each problem")
     parser.add_argument("--crossed", type=int, default=2, help="blind starts without each group of claims")
-    for setting, value in SETTINGS.items():
-        parser.add_argument(f"--{setting}", type=int, default=value, help=f"of the search ({value})")
+    for before, settings in (("draft-", DRAFTED), ("", SETTINGS)):
+        for setting, value in settings.items():
+            parser.add_argument(f"--{before}{setting}", type=int, default=value, help="(%(default)s)")
     parser.add_argument("--page", type=Path, default=PAGE)
     parser.add_argument("--ensemble", type=Path, default=ENSEMBLE)
     parser.add_argument("--conditions", type=Path, default=CONDITIONS)
     arguments = parser.parse_args()
-    run = partial(finished, arguments.out, {key: getattr(arguments, key) for key in SETTINGS})
+    drafted = {key: getattr(arguments, f"draft_{key}") for key in DRAFTED}
+    run = partial(finished, arguments.out, drafted, {key: getattr(arguments, key) for key in SETTINGS})
     searches: list[Search] = []
     crossed: list[Search] = []
     for problem in arguments.problems:
@@ -203,11 +205,13 @@ def groups(problem: Problem) -> list[str]:
     return list(dict.fromkeys(claim.table.group for claim in claims if claim.table.group))
 
 
-def finished(out: Path, settings: dict[str, int], file: Path, seed: int, without: str = "") -> Search:
+def finished(
+    out: Path, drafts: dict[str, int], settings: dict[str, int], file: Path, seed: int, without: str = ""
+) -> Search:
     """A run from a blind start, done now where it was not before."""
     groups = [without] if without else []
     name = f"{file.stem}-{seed}{f'-without-{without}' if without else ''}"
-    draft = read_problem(file, {**DRAFTED, "seed": seed, "blind": True}, groups, DRAFT)
+    draft = read_problem(file, {**drafts, "seed": seed, "blind": True, "rounds": 0}, groups, DRAFT)
     drafted = done(out / f"{name}-draft", draft, without)
     starts = tuple(draft.space.scene_values(unit) for unit in beginnings(drafted))
     problem = read_problem(file, {**REFINED, **settings, "seed": seed}, groups)
