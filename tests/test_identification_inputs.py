@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tracks import PARTS, PASS, SMALL, entries, saved
 
 from magworm_gym import Scene
 from magworm_gym.cli import main
@@ -21,13 +22,9 @@ from magworm_gym.identification import (
     read_problem,
     write_example_tracks,
 )
-from magworm_gym.identification.drive_motion import MOST_WAYPOINTS, drive_from_stage, read_stage, thinned
 
 DATA = Path(__file__).parent / "data"
-PASS = {"drive.motion": {"kind": "constant", "x_m": -0.05, "y_m": -0.022, "speed_m_s": 0.1}}
 STILL = {"drive.motion": {**PASS["drive.motion"], "speed_m_s": 0.0}}
-PARTS = ["head", "middle", "tail"]
-SMALL = {"restarts": 1, "population": 4, "generations": 1, "scatter": 8, "rounds": 0}
 
 
 @pytest.fixture(scope="module")
@@ -37,29 +34,6 @@ def film(tmp_path_factory):
     scene = Scene.preset("paper-3").with_values(PASS)
     write_example_tracks(path, scene, 1.5, Camera(1.5e-4, 60.0), PARTS)
     return list(csv.reader(path.read_text().splitlines()))
-
-
-def saved(path, rows, separator=","):
-    path.write_text("\n".join(separator.join(row) for row in rows) + "\n", encoding="utf-8")
-    return path
-
-
-def entries(path="worm.csv", values=PASS, drive=None, **tracks):
-    tracks = {
-        "file": str(path),
-        "metres_per_pixel": 1.5e-4,
-        "frames_per_second": 60.0,
-        "magnets": PARTS,
-        **tracks,
-    }
-    return {
-        "scene": "paper-3",
-        "parameters": {"material.youngs_modulus_pa": {"low": 28600, "high": 76300}},
-        "experiment": [
-            {"name": "film", "values": values, "tracks": tracks, **({"drive": drive} if drive else {})}
-        ],
-        "search": SMALL,
-    }
 
 
 def command(capsys, *arguments):
@@ -301,65 +275,6 @@ def test_a_stage_that_covers_a_part_of_the_film_is_said(tmp_path, film):
     saved(tmp_path / "stage.csv", rows)
     problem = make_problem(entries(values={}, drive={"file": "stage.csv"}), tmp_path)
     assert "of 0 to 1.5 s; in the rest the drive stands still" in problem.remarks[0]
-
-
-@pytest.mark.parametrize("form", ["semicolons", "more columns", "empty"])
-def test_stages_are_read_as_spreadsheets_save_them(tmp_path, form):
-    rows = [["time_s", "x_m", "y_m"], ["0.0", "-0.05", "-0.022"], ["0.5", "0.0", "-0.022"]]
-    separator = ","
-    if form == "semicolons":
-        rows, separator = [[cell.replace(".", ",") for cell in row] for row in rows], ";"
-    elif form == "more columns":
-        rows = [["", "force_n", "y_m", "time_s", "x_m"]] + [["", "1.0", y, t, x] for t, x, y in rows[1:]]
-    else:
-        rows = [[*row, "", ""] for row in [*rows, [""] * 3]]
-    log = read_stage(saved(tmp_path / "stage.csv", rows, separator))
-    assert log.time_s.tolist() == [0.0, 0.5] and log.points_m.tolist() == [[-0.05, -0.022], [0.0, -0.022]]
-
-
-def test_a_stage_of_any_rate_is_resampled_with_a_bound_that_is_said(tmp_path):
-    time_s = np.arange(120_001) * 1e-5
-    x_m = -0.05 + 0.1 * time_s + 2e-5 * np.sin(2.0 * np.pi * 300.0 * time_s)
-    rows = [
-        ["time_s", "x_m", "y_m"],
-        *([f"{t:.5f}", f"{x:.9f}", "-0.022"] for t, x in zip(time_s, x_m, strict=True)),
-    ]
-    saved(tmp_path / "stage.csv", rows)
-    target = {"quantity": "stride_m", "value": 4e-3, "tolerance": 1e-3}
-    experiment = {"name": "pass", "duration_s": 1.2, "targets": [target], "drive": {"file": "stage.csv"}}
-    problem = make_problem({**entries(), "experiment": [experiment]}, tmp_path)
-    (remark,) = problem.remarks
-    said_m = float(remark.split("more than ")[1].split()[0])
-    motion = problem.experiments[0].scene.to_toml().split("[drive.motion]")[1]
-    kept = [[float(each) for each in motion.split(f"{name} = [")[1].split("]")[0].split(",") if each.strip()]
-            for name in ("time_s", "x_m")]  # fmt: skip
-    assert len(kept[0]) == MOST_WAYPOINTS
-    assert np.abs(np.interp(time_s, *kept) - x_m).max() <= said_m + 2e-9 < 1e-5
-
-
-def test_rows_of_a_stage_that_share_their_time_are_averaged(tmp_path):
-    rows = [
-        ["time_s", "x_m", "y_m"],
-        *([t, x, "-0.022"] for t, x in (("0", "0"), ("0.1", "0"), ("0.1", "2e-6"), ("0.2", "1e-5"))),
-    ]
-    log = read_stage(saved(tmp_path / "stage.csv", rows))
-    assert log.time_s.tolist() == [0.0, 0.1, 0.2]
-    assert log.points_m[:, 0] == pytest.approx([0.0, 1e-6, 1e-5]) and log.spread_m == pytest.approx(1e-6)
-    _, (remark,) = drive_from_stage(log, 0.0, 0.2)
-    assert "3 waypoints for its 4 rows miss none by more than 1e-06 m" in remark
-    _, (remark, _) = drive_from_stage(log, 0.0, 1e-3)
-    assert "are 0 to 0.2 s, and the experiment lasts 0.001 s: are they in s?" in remark
-    with pytest.raises(ProblemError, match=r"line 4, time_s is 0.1; allowed: rising"):
-        read_stage(saved(tmp_path / "stage.csv", [*rows[:2], ["0.2", "0", "0"], ["0.1", "0", "0"]]))
-
-
-def test_thinned_points_miss_none_by_more_than_they_say():
-    time_s = np.sort(np.random.default_rng(0).random(400))
-    points_m = np.stack([np.sin(9.0 * time_s), time_s], axis=1)
-    kept, error_m = thinned(time_s, points_m, 40)
-    away = [np.interp(time_s, time_s[kept], points_m[kept, axis]) - points_m[:, axis] for axis in (0, 1)]
-    assert len(kept) == 40 and np.abs(away).max() == pytest.approx(error_m, rel=1e-9)
-    assert thinned(time_s, points_m * 0.0, 40) == ([0, 399], 0.0)
 
 
 def test_a_whole_number_is_not_fitted(tmp_path, film):

@@ -101,9 +101,13 @@ class Report(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
                 texts.append(part)
         return "\n\n".join(text for text in (*texts, pictures) if text) + "\n"
 
+    def json(self) -> str:
+        """The report as JSON."""
+        return msgspec.json.format(msgspec.json.encode(self), indent=1).decode() + "\n"
+
     def write(self, path: Path) -> None:
         """Writes the report as JSON."""
-        write_text(path, msgspec.json.format(msgspec.json.encode(self), indent=1).decode() + "\n")
+        write_text(path, self.json())
 
 
 def read_report(path: Path) -> Report:

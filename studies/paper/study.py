@@ -18,7 +18,7 @@ from studies.paper.load import Load
 from studies.paper.mirror import Mirror
 from studies.paper.morphology import Morphology
 from studies.paper.other_fits import OtherFits
-from studies.paper.page import paper_page, quantities
+from studies.paper.page import paper_page, paper_report, quantities
 from studies.paper.stride import Stride
 
 EXPERIMENTS: dict[str, type[Experiment]] = {
@@ -56,8 +56,14 @@ def kept() -> list[Experiment]:
 
 
 def pages() -> dict[str, str]:
-    """The page."""
-    return {"paper.md": paper_page(kept())}
+    """The page, and the report that the README is filled from, as data and as Markdown."""
+    experiments = kept()
+    report = paper_report(experiments)
+    return {
+        "paper.md": paper_page(experiments),
+        "results/paper.json": report.json(),
+        "results/paper.md": report.markdown(),
+    }
 
 
 def figures() -> dict[str, Any]:
